@@ -1,0 +1,2 @@
+//! The program `lobe`.
+fn main() {}
