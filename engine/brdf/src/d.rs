@@ -1,0 +1,215 @@
+//! D: how the microfacet normals are distributed.
+//!
+//! A distribution D(h) is microfacet area per macrosurface area and solid angle, in 1/sr,
+//! normalised so that the integral of D cos θ over the hemisphere is 1. The integral of D
+//! alone is the area of the facets and exceeds 1 (see [`crate::integral_d_ggx`]).
+//!
+//! For all of them: `n_dot_h < 0` gives 0, `n_dot_h > 1` counts as 1, and `alpha = 0` gives
+//! the limit, +∞ at `n_dot_h = 1` and 0 elsewhere.
+
+use crate::real::{Real, lit};
+use crate::term::{ALPHA, N_DOT_H, Param, Term, entry};
+use std::f64::consts::FRAC_1_PI;
+
+pub(crate) const TERMS: &[Term] = &[D_GGX, D_GGX_ANISO, D_BECKMANN, D_BLINN_PHONG];
+
+/// GGX, or Trowbridge-Reitz: D = α² / (π ((N·H)² (α² − 1) + 1)²).
+///
+/// Walter et al. 2007, eq. 33; Trowbridge and Reitz 1975. Units 1/sr, range 0 to 1/(π α²).
+///
+/// Computed as (α / (α² c² + s²))² / π with s² = (1 − c)(1 + c): the printed denominator
+/// cancels near the peak, and in f32 at α = 0.0004 has already lost a fifth of the value.
+#[inline(always)]
+pub fn d_ggx<R: Real>(n_dot_h: R, alpha: R) -> R {
+    if n_dot_h < lit(0.0) {
+        return lit(0.0);
+    }
+    let c = n_dot_h.at_most(lit(1.0));
+    let sin2 = (lit::<R>(1.0) - c) * (lit::<R>(1.0) + c);
+    let ac = alpha * c;
+    // At the peak itself α/α² would be 0/0 for an α whose square underflows.
+    let t = if sin2 == lit(0.0) {
+        lit::<R>(1.0) / alpha
+    } else {
+        alpha / (ac * ac + sin2)
+    };
+    t * t * lit(FRAC_1_PI)
+}
+
+const D_GGX: Term = entry!(
+    d_ggx(n_dot_h: N_DOT_H, alpha: ALPHA),
+    symbol: "D_GGX", latex: r"D_{\mathrm{GGX}}", cost: 11,
+    doc: "GGX (Trowbridge-Reitz) distribution of microfacet normals, in 1/sr",
+    source: "Walter et al. 2007, eq. 33; Trowbridge and Reitz 1975",
+    wgsl: Some("fn lobe_d_ggx(n_dot_h: f32, alpha: f32) -> f32 {
+    if (n_dot_h < 0.0) { return 0.0; }
+    let c = min(n_dot_h, 1.0);
+    let ac = alpha * c;
+    let t = alpha / (ac * ac + (1.0 - c) * (1.0 + c));
+    return t * t * 0.31830988618379067;
+}")
+);
+
+/// Anisotropic GGX: D = 1 / (π α_x α_y ((h_x/α_x)² + (h_y/α_y)² + h_z²)²), h in the tangent
+/// frame.
+///
+/// Burley 2012, eq. 13; Heitz 2014, eq. 85. The half vector is expected to be of length 1;
+/// scaled by t, the value is divided by t⁴. `h_z < 0` gives 0.
+#[inline(always)]
+pub fn d_ggx_aniso<R: Real>(h_x: R, h_y: R, h_z: R, alpha_x: R, alpha_y: R) -> R {
+    if h_z < lit(0.0) {
+        return lit(0.0);
+    }
+    let over = |h: R, alpha: R| if h == lit(0.0) { h } else { h / alpha };
+    let (x, y) = (over(h_x, alpha_x), over(h_y, alpha_y));
+    let t = x * x + y * y + h_z * h_z;
+    // Divided one by one: α_x α_y t² overflows where the quotient does not.
+    if t.is_finite() || t.is_nan() {
+        lit::<R>(FRAC_1_PI) / (alpha_x * t) / (alpha_y * t)
+    } else {
+        lit(0.0)
+    }
+}
+
+const H_X: Param = Param {
+    name: "h_x",
+    range: (-1.0, 1.0),
+    unit: "1",
+    meaning: "half vector along the tangent",
+};
+const H_Y: Param = Param {
+    name: "h_y",
+    range: (-1.0, 1.0),
+    unit: "1",
+    meaning: "half vector along the bitangent",
+};
+const H_Z: Param = Param {
+    name: "h_z",
+    range: (0.0, 1.0),
+    unit: "1",
+    meaning: "half vector along the normal",
+};
+const ALPHA_X: Param = Param {
+    meaning: "width of the distribution along the tangent",
+    ..ALPHA
+};
+const ALPHA_Y: Param = Param {
+    meaning: "width of the distribution along the bitangent",
+    ..ALPHA
+};
+
+const D_GGX_ANISO: Term = entry!(
+    d_ggx_aniso(h_x: H_X, h_y: H_Y, h_z: H_Z, alpha_x: ALPHA_X, alpha_y: ALPHA_Y),
+    symbol: "D_GGX", latex: r"D_{\mathrm{GGX}}", cost: 14,
+    doc: "anisotropic GGX distribution of microfacet normals, half vector in the tangent frame, in 1/sr",
+    source: "Burley 2012, eq. 13; Heitz 2014, eq. 85",
+    wgsl: Some("fn lobe_d_ggx_aniso(h_x: f32, h_y: f32, h_z: f32, alpha_x: f32, alpha_y: f32) -> f32 {
+    if (h_z < 0.0) { return 0.0; }
+    let x = h_x / alpha_x;
+    let y = h_y / alpha_y;
+    let t = x * x + y * y + h_z * h_z;
+    return 0.31830988618379067 / (alpha_x * t) / (alpha_y * t);
+}")
+);
+
+/// tan²θ/α² of a cosine as an unevaluated sum of two numbers, θ and α not 0.
+///
+/// It stands in an exponent, where a relative error e of x becomes x·e: one rounding at
+/// x = 80 costs 80 ulps of the result. So every rounding error on the way is kept.
+#[inline(always)]
+pub(crate) fn tan2_over_alpha2<R: Real>(c: R, alpha: R) -> (R, R) {
+    let (c2, c2_low) = c.two_prod(c);
+    let (sin2, sin2_low) = lit::<R>(1.0).two_sum(-c2);
+    let sin2_low = sin2_low - c2_low;
+    let (ac, ac_low) = alpha.two_prod(c);
+    let (d, d_low) = ac.two_prod(ac);
+    let d_low = d_low + lit::<R>(2.0) * ac * ac_low;
+    let x = sin2 / d;
+    let (back, back_low) = x.two_prod(d);
+    (x, ((sin2 - back) - back_low + sin2_low - x * d_low) / d)
+}
+
+/// Beckmann: D = exp(−tan²θ/α²) / (π α² cos⁴θ), a Gaussian in the slopes.
+///
+/// Beckmann and Spizzichino 1963; Walter et al. 2007, eq. 25. Units 1/sr.
+#[inline(always)]
+pub fn d_beckmann<R: Real>(n_dot_h: R, alpha: R) -> R {
+    if n_dot_h < lit(0.0) {
+        return lit(0.0);
+    }
+    let c = n_dot_h.at_most(lit(1.0));
+    let t = lit::<R>(1.0) / (alpha * c * c);
+    if c == lit(1.0) {
+        return t * t * lit(FRAC_1_PI);
+    }
+    let (x, x_low) = tan2_over_alpha2(c, alpha);
+    // Also where x is not finite: far below the smallest number either way.
+    if x < lit(760.0) {
+        (-x).exp() * (lit::<R>(1.0) - x_low) * t * t * lit(FRAC_1_PI)
+    } else if (n_dot_h + alpha).is_nan() {
+        n_dot_h + alpha
+    } else {
+        lit(0.0)
+    }
+}
+
+const D_BECKMANN: Term = entry!(
+    d_beckmann(n_dot_h: N_DOT_H, alpha: ALPHA),
+    symbol: "D_Beckmann", latex: r"D_{\mathrm{Beckmann}}", cost: 30,
+    doc: "Beckmann distribution of microfacet normals (Gaussian slopes), in 1/sr",
+    source: "Walter et al. 2007, eq. 25; Beckmann and Spizzichino 1963",
+    wgsl: Some("fn lobe_d_beckmann(n_dot_h: f32, alpha: f32) -> f32 {
+    if (n_dot_h <= 0.0) { return 0.0; }
+    let c = min(n_dot_h, 1.0);
+    let ac = alpha * c;
+    let t = 1.0 / (ac * c);
+    let x = (1.0 - c) * (1.0 + c) / (ac * ac);
+    if (x > 100.0) { return 0.0; }
+    return exp(-x) * t * t * 0.31830988618379067;
+}")
+);
+
+/// Blinn-Phong with the exponent that matches α: D = cosⁿθ / (π α²), n = 2/α² − 2.
+///
+/// Blinn 1977; Walter et al. 2007, eq. 30, with n + 2 = 2/α². Units 1/sr. α > 1 makes the
+/// exponent negative and the distribution grow towards grazing.
+#[inline(always)]
+pub fn d_blinn_phong<R: Real>(n_dot_h: R, alpha: R) -> R {
+    if n_dot_h < lit(0.0) {
+        return lit(0.0);
+    }
+    let c = n_dot_h.at_most(lit(1.0));
+    let t = lit::<R>(1.0) / alpha;
+    let peak = t * t * lit(FRAC_1_PI);
+    if c == lit(1.0) {
+        return peak;
+    }
+    // 2/α² − 2 as an unevaluated sum: as an exponent its rounding error is multiplied by ln c.
+    let (a2, a2_low) = alpha.two_prod(alpha);
+    let q = lit::<R>(2.0) / a2;
+    let (back, back_low) = q.two_prod(a2);
+    let q_low = ((lit::<R>(2.0) - back) - back_low - q * a2_low) / a2;
+    let (n, n_low) = q.two_sum(lit(-2.0));
+    let n_low = n_low + q_low;
+    let power = c.powf(n);
+    if power > lit(0.0) && n_low.is_finite() && power.is_finite() {
+        power * (lit::<R>(1.0) + n_low * c.ln()) * peak
+    } else if power == lit(0.0) {
+        power
+    } else {
+        power * peak
+    }
+}
+
+const D_BLINN_PHONG: Term = entry!(
+    d_blinn_phong(n_dot_h: N_DOT_H, alpha: ALPHA),
+    symbol: "D_Blinn", latex: r"D_{\mathrm{Blinn}}", cost: 60,
+    doc: "normalised Blinn-Phong distribution with exponent 2/alpha² - 2, in 1/sr",
+    source: "Blinn 1977; Walter et al. 2007, eq. 30",
+    wgsl: Some("fn lobe_d_blinn_phong(n_dot_h: f32, alpha: f32) -> f32 {
+    if (n_dot_h < 0.0) { return 0.0; }
+    let c = min(n_dot_h, 1.0);
+    let a2 = alpha * alpha;
+    return pow(c, 2.0 / a2 - 2.0) / (3.1415926535897931 * a2);
+}")
+);

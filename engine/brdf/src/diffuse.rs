@@ -1,0 +1,312 @@
+//! Diffuse models, in 1/sr: multiply by N·L and the light.
+//!
+//! `n_dot_l` or `n_dot_v` at or below 0 gives 0, but for Lambert, which has no cosines.
+
+use crate::fresnel::unit;
+use crate::real::{Real, lit};
+use crate::smith::sine;
+use crate::term::{
+    ALBEDO, ALPHA, COS_PHI, L_DOT_V, N_DOT_L, N_DOT_V, Param, ROUGHNESS, SIGMA, Term, V_DOT_H,
+    entry,
+};
+use std::f64::consts::{FRAC_1_PI, FRAC_2_PI, FRAC_PI_2, PI};
+
+pub(crate) const TERMS: &[Term] = &[
+    DIFFUSE_LAMBERT,
+    DIFFUSE_DISNEY,
+    DIFFUSE_OREN_NAYAR,
+    DIFFUSE_OREN_NAYAR_FULL,
+    DIFFUSE_HAMMON,
+    DIFFUSE_EON,
+];
+
+/// Lambert: albedo/π, the same in every direction.
+#[inline(always)]
+pub fn diffuse_lambert<R: Real>(albedo: R) -> R {
+    albedo * lit(FRAC_1_PI)
+}
+
+const DIFFUSE_LAMBERT: Term = entry!(
+    diffuse_lambert(albedo: ALBEDO),
+    symbol: "f_Lambert", latex: r"f_{\mathrm{Lambert}}", cost: 1,
+    doc: "Lambert's diffuse reflection, albedo/pi, in 1/sr",
+    source: "Lambert 1760",
+    wgsl: Some("fn lobe_diffuse_lambert(albedo: f32) -> f32 {
+    return albedo * 0.31830988618379067;
+}")
+);
+
+/// Disney: (albedo/π) (1 + (fd90 − 1)(1 − N·L)⁵)(1 + (fd90 − 1)(1 − N·V)⁵),
+/// fd90 = 0.5 + 2 roughness (V·H)².
+///
+/// Burley 2012, eq. 4. Reciprocal; gains energy for rough surfaces. It takes roughness, not α.
+#[inline(always)]
+pub fn diffuse_disney<R: Real>(n_dot_l: R, n_dot_v: R, v_dot_h: R, roughness: R, albedo: R) -> R {
+    if n_dot_l <= lit(0.0) || n_dot_v <= lit(0.0) {
+        return lit(0.0);
+    }
+    let one = lit::<R>(1.0);
+    let retro = lit::<R>(2.0) * roughness * v_dot_h * v_dot_h - lit(0.5);
+    let factor = |c: R| one + retro * (one - unit(c)).pow5();
+    albedo * lit(FRAC_1_PI) * factor(n_dot_l) * factor(n_dot_v)
+}
+
+const DIFFUSE_DISNEY: Term = entry!(
+    diffuse_disney(n_dot_l: N_DOT_L, n_dot_v: N_DOT_V, v_dot_h: V_DOT_H, roughness: ROUGHNESS, albedo: ALBEDO),
+    symbol: "f_Disney", latex: r"f_{\mathrm{Disney}}", cost: 19,
+    doc: "Disney's diffuse reflection with retro-reflection at grazing angles, in 1/sr",
+    source: "Burley 2012, eq. 4",
+    wgsl: Some("fn lobe_diffuse_disney(n_dot_l: f32, n_dot_v: f32, v_dot_h: f32, roughness: f32, albedo: f32) -> f32 {
+    if (n_dot_l <= 0.0 || n_dot_v <= 0.0) { return 0.0; }
+    let retro = 2.0 * roughness * v_dot_h * v_dot_h - 0.5;
+    let l = 1.0 - min(n_dot_l, 1.0);
+    let v = 1.0 - min(n_dot_v, 1.0);
+    let l2 = l * l;
+    let v2 = v * v;
+    return albedo * 0.31830988618379067 * (1.0 + retro * (l2 * l2 * l)) * (1.0 + retro * (v2 * v2 * v));
+}")
+);
+
+/// The smaller and the larger of two cosines, at most 1.
+#[inline(always)]
+fn ordered<R: Real>(l: R, v: R) -> (R, R) {
+    let (l, v) = (l.at_most(lit(1.0)), v.at_most(lit(1.0)));
+    if l < v { (l, v) } else { (v, l) }
+}
+
+/// Oren-Nayar, the qualitative model: (albedo/π)(A + B max(0, cos φ) sin α tan β),
+/// A = 1 − 0.5 σ²/(σ² + 0.33), B = 0.45 σ²/(σ² + 0.09).
+///
+/// Oren and Nayar 1994, eq. 30; α is the larger and β the smaller of the two angles to the
+/// normal, σ the standard deviation of the facet angle in radians. V-shaped grooves without
+/// interreflection.
+#[inline(always)]
+pub fn diffuse_oren_nayar<R: Real>(n_dot_l: R, n_dot_v: R, cos_phi: R, sigma: R, albedo: R) -> R {
+    if n_dot_l <= lit(0.0) || n_dot_v <= lit(0.0) {
+        return lit(0.0);
+    }
+    let (low, high) = ordered(n_dot_l, n_dot_v);
+    let sin_tan = sine(low) * sine(high) / high;
+    let s2 = sigma * sigma;
+    let a = oren_nayar_a(s2);
+    let b = lit::<R>(0.45) * (s2 / (s2 + lit(0.09)));
+    albedo * lit(FRAC_1_PI) * (a + b * cos_phi.at_least(lit(0.0)) * sin_tan)
+}
+
+/// 1 − 0.5 σ²/(σ² + 0.33) of σ², without the difference.
+#[inline(always)]
+fn oren_nayar_a<R: Real>(s2: R) -> R {
+    (lit::<R>(0.5) * s2 + lit(0.33)) / (s2 + lit(0.33))
+}
+
+const DIFFUSE_OREN_NAYAR: Term = entry!(
+    diffuse_oren_nayar(n_dot_l: N_DOT_L, n_dot_v: N_DOT_V, cos_phi: COS_PHI, sigma: SIGMA, albedo: ALBEDO),
+    symbol: "f_ON", latex: r"f_{\mathrm{ON}}", cost: 28,
+    doc: "Oren-Nayar diffuse reflection, qualitative model, in 1/sr",
+    source: "Oren and Nayar 1994, eq. 30",
+    wgsl: Some("fn lobe_diffuse_oren_nayar(n_dot_l: f32, n_dot_v: f32, cos_phi: f32, sigma: f32, albedo: f32) -> f32 {
+    if (n_dot_l <= 0.0 || n_dot_v <= 0.0) { return 0.0; }
+    let l = min(n_dot_l, 1.0);
+    let v = min(n_dot_v, 1.0);
+    let sin_tan = sqrt((1.0 - l) * (1.0 + l)) * sqrt((1.0 - v) * (1.0 + v)) / max(l, v);
+    let s2 = sigma * sigma;
+    let a = (0.5 * s2 + 0.33) / (s2 + 0.33);
+    let b = 0.45 * s2 / (s2 + 0.09);
+    return albedo * 0.31830988618379067 * (a + b * max(cos_phi, 0.0) * sin_tan);
+}")
+);
+
+/// Oren-Nayar, the full model with C₁, C₂, C₃ and one interreflection.
+///
+/// Oren and Nayar 1994, eq. 26 to 29. Slightly negative at a few grazing points with
+/// cos φ < 0: that is the model.
+///
+/// sin α − (2β/π)³ cancels when both directions graze: with u = 2 asin(cos β)/π it is
+/// u (3 − 3u + u²) − c²/(1 + s), c = cos α, s = sin α.
+#[inline(always)]
+pub fn diffuse_oren_nayar_full<R: Real>(
+    n_dot_l: R,
+    n_dot_v: R,
+    cos_phi: R,
+    sigma: R,
+    albedo: R,
+) -> R {
+    if n_dot_l <= lit(0.0) || n_dot_v <= lit(0.0) {
+        return lit(0.0);
+    }
+    let one = lit::<R>(1.0);
+    let (low, high) = ordered(n_dot_l, n_dot_v);
+    let (sin_alpha, sin_beta) = (sine(low), sine(high));
+    // Both angles as shares of a right angle.
+    let alpha = low.acos() * lit(FRAC_2_PI);
+    let beta = high.acos() * lit(FRAC_2_PI);
+    let tan_beta = sin_beta / high;
+    let tan_half = (sin_alpha + sin_beta) / (low + high);
+    let s2 = sigma * sigma;
+    let k = s2 / (s2 + lit(0.09));
+    let c1 = oren_nayar_a(s2);
+    let c2 = lit::<R>(0.45)
+        * k
+        * if cos_phi >= lit(0.0) {
+            sin_alpha
+        } else {
+            let u = high.asin() * lit(FRAC_2_PI);
+            u * (lit::<R>(3.0) - lit::<R>(3.0) * u + u * u) - low * low / (one + sin_alpha)
+        };
+    let c3 = lit::<R>(0.125) * k * (alpha * beta).squared();
+    let direct = c1 + cos_phi * c2 * tan_beta + (one - cos_phi.abs()) * c3 * tan_half;
+    let indirect = lit::<R>(0.17) * (s2 / (s2 + lit(0.13))) * (one - cos_phi * beta * beta);
+    albedo * lit(FRAC_1_PI) * (direct + albedo * indirect)
+}
+
+const DIFFUSE_OREN_NAYAR_FULL: Term = entry!(
+    diffuse_oren_nayar_full(n_dot_l: N_DOT_L, n_dot_v: N_DOT_V, cos_phi: COS_PHI, sigma: SIGMA, albedo: ALBEDO),
+    symbol: "f_ON", latex: r"f_{\mathrm{ON}}", cost: 95,
+    doc: "Oren-Nayar diffuse reflection, full model with interreflection, in 1/sr",
+    source: "Oren and Nayar 1994, eq. 26 to 29",
+    wgsl: Some("fn lobe_diffuse_oren_nayar_full(n_dot_l: f32, n_dot_v: f32, cos_phi: f32, sigma: f32, albedo: f32) -> f32 {
+    if (n_dot_l <= 0.0 || n_dot_v <= 0.0) { return 0.0; }
+    let low = min(min(n_dot_l, n_dot_v), 1.0);
+    let high = min(max(n_dot_l, n_dot_v), 1.0);
+    let sin_a = sqrt((1.0 - low) * (1.0 + low));
+    let sin_b = sqrt((1.0 - high) * (1.0 + high));
+    let u = 0.63661977236758134 * asin(high);
+    let a = 1.0 - 0.63661977236758134 * asin(low);
+    let b = 1.0 - u;
+    let s2 = sigma * sigma;
+    let k = s2 / (s2 + 0.09);
+    var c2 = sin_a;
+    if (cos_phi < 0.0) { c2 = u * (3.0 - 3.0 * u + u * u) - low * low / (1.0 + sin_a); }
+    let direct = (0.5 * s2 + 0.33) / (s2 + 0.33)
+        + cos_phi * 0.45 * k * c2 * sin_b / high
+        + (1.0 - abs(cos_phi)) * 0.125 * k * (a * b) * (a * b) * (sin_a + sin_b) / (low + high);
+    let indirect = 0.17 * s2 / (s2 + 0.13) * (1.0 - cos_phi * b * b);
+    return albedo * 0.31830988618379067 * (direct + albedo * indirect);
+}")
+);
+
+/// 1 − (1 − c)⁵ = c (1 + x + x² + x³ + x⁴), x = 1 − c: no difference left.
+#[inline(always)]
+fn one_minus_pow5<R: Real>(c: R) -> R {
+    let one = lit::<R>(1.0);
+    let x = one - c;
+    let x2 = x * x;
+    c * (one + (x + x2) + (x + x2) * x2)
+}
+
+/// Hammon's diffuse for GGX: albedo (single + albedo multi), single = lerp(smooth, rough, α)/π.
+///
+/// Hammon 2017: facing = 0.5 + 0.5 L·V, rough = facing (0.9 − 0.4 facing)(0.5 + N·H)/N·H,
+/// smooth = 1.05 (1 − (1 − N·L)⁵)(1 − (1 − N·V)⁵), multi = 0.1159 α. A fit to a random walk
+/// on diffuse facets. At α = 1 and albedo 1 it returns up to 18 % more than it receives.
+///
+/// N·H is taken from the identity (N·L + N·V)/|L + V|, and never divided by alone.
+#[inline(always)]
+pub fn diffuse_hammon<R: Real>(n_dot_l: R, n_dot_v: R, l_dot_v: R, alpha: R, albedo: R) -> R {
+    if n_dot_l <= lit(0.0) || n_dot_v <= lit(0.0) {
+        return lit(0.0);
+    }
+    let one = lit::<R>(1.0);
+    let (l, v) = (n_dot_l.at_most(one), n_dot_v.at_most(one));
+    let two_facing = (one + l_dot_v).at_least(lit(0.0));
+    let facing = lit::<R>(0.5) * two_facing;
+    // |L + V|/(N·L + N·V), which is 1/N·H.
+    let secant = (lit::<R>(2.0) * two_facing).sqrt() / (l + v);
+    let rough = facing * (lit::<R>(0.9) - lit::<R>(0.4) * facing) * (one + lit::<R>(0.5) * secant);
+    let smooth = lit::<R>(1.05) * one_minus_pow5(l) * one_minus_pow5(v);
+    let single = (smooth * (one - alpha) + rough * alpha) * lit(FRAC_1_PI);
+    albedo * (single + albedo * (lit::<R>(0.1159) * alpha))
+}
+
+const DIFFUSE_HAMMON: Term = entry!(
+    diffuse_hammon(n_dot_l: N_DOT_L, n_dot_v: N_DOT_V, l_dot_v: L_DOT_V, alpha: ALPHA, albedo: ALBEDO),
+    symbol: "f_Hammon", latex: r"f_{\mathrm{Hammon}}", cost: 42,
+    doc: "Hammon's diffuse reflection for GGX surfaces, in 1/sr",
+    source: "Hammon 2017",
+    wgsl: Some("fn lobe_diffuse_hammon(n_dot_l: f32, n_dot_v: f32, l_dot_v: f32, alpha: f32, albedo: f32) -> f32 {
+    if (n_dot_l <= 0.0 || n_dot_v <= 0.0) { return 0.0; }
+    let l = min(n_dot_l, 1.0);
+    let v = min(n_dot_v, 1.0);
+    let f2 = max(1.0 + l_dot_v, 0.0);
+    let facing = 0.5 * f2;
+    let rough = facing * (0.9 - 0.4 * facing) * (1.0 + 0.5 * sqrt(2.0 * f2) / (l + v));
+    let x = 1.0 - l;
+    let y = 1.0 - v;
+    let smooth_l = l * (1.0 + (x + x * x) * (1.0 + x * x));
+    let smooth_v = v * (1.0 + (y + y * y) * (1.0 + y * y));
+    let single = mix(1.05 * smooth_l * smooth_v, rough, alpha) * 0.31830988618379067;
+    return albedo * (single + albedo * (0.1159 * alpha));
+}")
+);
+
+/// 1/2 − 2/(3π): what the facets of the FON model lose.
+const FON_1: f64 = 0.5 - FRAC_2_PI / 3.0;
+/// 2/3 − 28/(15π).
+const FON_2: f64 = 2.0 / 3.0 - 28.0 / (15.0 * PI);
+
+/// (1 − E)/(A_F r) of the FON model, which is c₁ − G(μ)/π, exact.
+#[inline(always)]
+fn fon_loss<R: Real>(mu: R) -> R {
+    let one = lit::<R>(1.0);
+    let s = sine(mu);
+    let mu2_over = mu * mu / (one + s);
+    let thirds = lit::<R>(2.0 / 3.0);
+    let sum = lit::<R>(FRAC_PI_2 - 2.0 / 3.0) * mu2_over + s * mu.asin() + s * s * mu
+        - thirds * s * (mu * (one + s + s * s) / (one + s));
+    sum * lit(FRAC_1_PI)
+}
+
+/// EON: energy-preserving Oren-Nayar, exact albedo.
+///
+/// Portsmouth, Kutz and Hill 2025 (JCGT 14-1), eq. 18 to 28: Fujii's Oren-Nayar plus a
+/// multiple-scattering term that restores what it loses, so that `albedo = 1` passes the
+/// white furnace. `roughness` is the model's own, 0 (Lambert) to 1.
+///
+/// 1 − E is computed as a sum without the 1, and its factor A_F r cancels against that of
+/// the average: no clamp is needed at roughness 0.
+#[inline(always)]
+pub fn diffuse_eon<R: Real>(n_dot_l: R, n_dot_v: R, l_dot_v: R, roughness: R, albedo: R) -> R {
+    if n_dot_l <= lit(0.0) || n_dot_v <= lit(0.0) {
+        return lit(0.0);
+    }
+    let one = lit::<R>(1.0);
+    let (low, high) = ordered(n_dot_l, n_dot_v);
+    let s = l_dot_v - low * high;
+    let s_over_t = if s > lit(0.0) { s / high } else { s };
+    let a = one / (one + lit::<R>(FON_1) * roughness);
+    let single = albedo * a * (one + roughness * s_over_t);
+    let lost_average = a * roughness * lit(FON_1 - FON_2);
+    let average = a * (one + lit::<R>(FON_2) * roughness);
+    let rho_multi = albedo * albedo * average / (one - albedo * lost_average);
+    let multi = rho_multi * a * roughness * fon_loss(low) * fon_loss(high) / lit(FON_1 - FON_2);
+    (single + multi) * lit(FRAC_1_PI)
+}
+
+const EON_ROUGHNESS: Param = Param {
+    range: (0.0, 1.0),
+    meaning: "roughness of the diffuse model, 0 is Lambert",
+    ..ROUGHNESS
+};
+
+const DIFFUSE_EON: Term = entry!(
+    diffuse_eon(n_dot_l: N_DOT_L, n_dot_v: N_DOT_V, l_dot_v: L_DOT_V, roughness: EON_ROUGHNESS, albedo: ALBEDO),
+    symbol: "f_EON", latex: r"f_{\mathrm{EON}}", cost: 75,
+    doc: "EON, the energy-preserving Oren-Nayar diffuse reflection, exact albedo, in 1/sr",
+    source: "Portsmouth, Kutz and Hill 2025 (JCGT 14-1)",
+    wgsl: Some("fn lobe_diffuse_eon(n_dot_l: f32, n_dot_v: f32, l_dot_v: f32, roughness: f32, albedo: f32) -> f32 {
+    if (n_dot_l <= 0.0 || n_dot_v <= 0.0) { return 0.0; }
+    let low = min(min(n_dot_l, n_dot_v), 1.0);
+    let high = min(max(n_dot_l, n_dot_v), 1.0);
+    let s = l_dot_v - low * high;
+    let s_over_t = select(s, s / high, s > 0.0);
+    let a = 1.0 / (1.0 + 0.28779341040929137 * roughness);
+    let x = sqrt((1.0 - low) * (1.0 + low));
+    let y = sqrt((1.0 - high) * (1.0 + high));
+    let loss_x = 0.90412966012823 * low * low / (1.0 + x) + x * asin(low) + x * x * low - 0.66666666666666667 * x * low * (1.0 + x + x * x) / (1.0 + x);
+    let loss_y = 0.90412966012823 * high * high / (1.0 + y) + y * asin(high) + y * y * high - 0.66666666666666667 * y * high * (1.0 + y + y * y) / (1.0 + y);
+    let average = a * (1.0 + 0.07248820996 * roughness);
+    let lost = a * roughness * 0.21530520045;
+    let multi = albedo * albedo * average / (1.0 - albedo * lost) * a * roughness * loss_x * loss_y * 0.10132118364 / 0.21530520045;
+    return (albedo * a * (1.0 + roughness * s_over_t) + multi) * 0.31830988618379067;
+}")
+);

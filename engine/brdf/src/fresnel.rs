@@ -1,0 +1,297 @@
+//! Fresnel: how much a mirror reflects.
+//!
+//! `v_dot_h` is the cosine between the direction and the facet it is mirrored in; N·V where
+//! the surface itself is the mirror. It counts as 0 below 0 and as 1 above 1.
+
+use crate::real::{Real, lit};
+use crate::term::{F0, Param, Term, V_DOT_H, entry};
+
+pub(crate) const TERMS: &[Term] = &[
+    F_SCHLICK,
+    F_SPHERICAL_GAUSSIAN,
+    F_SCHLICK_IOR,
+    F_DIELECTRIC,
+    F_CONDUCTOR,
+    F_LAZANYI,
+];
+
+#[inline(always)]
+pub(crate) fn unit<R: Real>(c: R) -> R {
+    c.at_least(lit(0.0)).at_most(lit(1.0))
+}
+
+/// Schlick: F = f0 + (1 − f0)(1 − V·H)⁵.
+///
+/// Schlick 1994, eq. 15. From f0 at normal incidence to 1 at grazing.
+#[inline(always)]
+pub fn f_schlick<R: Real>(f0: R, v_dot_h: R) -> R {
+    f0 + (lit::<R>(1.0) - f0) * (lit::<R>(1.0) - unit(v_dot_h)).pow5()
+}
+
+const F_SCHLICK: Term = entry!(
+    f_schlick(f0: F0, v_dot_h: V_DOT_H),
+    symbol: "F_Schlick", latex: r"F_{\mathrm{Schlick}}", cost: 8,
+    doc: "Schlick's approximation of Fresnel reflectance, f0 to 1",
+    source: "Schlick 1994, eq. 15",
+    wgsl: Some("fn lobe_f_schlick(f0: f32, v_dot_h: f32) -> f32 {
+    let m = 1.0 - clamp(v_dot_h, 0.0, 1.0);
+    let m2 = m * m;
+    return f0 + (1.0 - f0) * (m2 * m2 * m);
+}")
+);
+
+/// Spherical Gaussian: F = f0 + (1 − f0) 2^((−5.55473 V·H − 6.98316) V·H).
+///
+/// Karis 2013, after Lagarde 2012. Within 0.0038 of Schlick's power; at normal incidence
+/// 1.7e-4 (1 − f0) remains above f0.
+#[inline(always)]
+pub fn f_spherical_gaussian<R: Real>(f0: R, v_dot_h: R) -> R {
+    let u = unit(v_dot_h);
+    f0 + (lit::<R>(1.0) - f0) * ((lit::<R>(-5.55473) * u - lit(6.98316)) * u).exp2()
+}
+
+const F_SPHERICAL_GAUSSIAN: Term = entry!(
+    f_spherical_gaussian(f0: F0, v_dot_h: V_DOT_H),
+    symbol: "F_SG", latex: r"F_{\mathrm{SG}}", cost: 18,
+    doc: "Schlick's approximation with a spherical Gaussian for the power",
+    source: "Karis 2013; Lagarde 2012",
+    wgsl: Some("fn lobe_f_spherical_gaussian(f0: f32, v_dot_h: f32) -> f32 {
+    let u = clamp(v_dot_h, 0.0, 1.0);
+    return f0 + (1.0 - f0) * exp2((-5.55473 * u - 6.98316) * u);
+}")
+);
+
+/// Schlick with f0 = ((n − 1)/(n + 1))² from an index of refraction n.
+///
+/// Schlick 1994, eq. 15. The index is expected to be positive.
+#[inline(always)]
+pub fn f_schlick_ior<R: Real>(ior: R, v_dot_h: R) -> R {
+    f_schlick(f0_from_ior(ior), v_dot_h)
+}
+
+/// Reflectance at normal incidence of an index of refraction: ((n − 1)/(n + 1))².
+///
+/// 0.04 for 1.5. Indices beyond the square root of the largest number count as 1.
+#[inline(always)]
+pub fn f0_from_ior<R: Real>(ior: R) -> R {
+    let n = ior.at_most(lit(R::LARGE));
+    ((n - lit(1.0)) / (n + lit(1.0))).squared()
+}
+
+const IOR: Param = Param {
+    name: "ior",
+    range: (1.0, 4.0),
+    unit: "1",
+    meaning: "index of refraction",
+};
+
+const F_SCHLICK_IOR: Term = entry!(
+    f_schlick_ior(ior: IOR, v_dot_h: V_DOT_H),
+    symbol: "F_Schlick", latex: r"F_{\mathrm{Schlick}}", cost: 12,
+    doc: "Schlick's approximation of Fresnel reflectance for an index of refraction",
+    source: "Schlick 1994, eq. 15",
+    wgsl: Some("fn lobe_f_schlick_ior(ior: f32, v_dot_h: f32) -> f32 {
+    let r = (ior - 1.0) / (ior + 1.0);
+    return lobe_f_schlick(r * r, v_dot_h);
+}"),
+    needs: ["f_schlick"]
+);
+
+/// g² = η² − 1 + c² to its last digit: near the critical angle everything depends on it.
+#[inline(always)]
+fn refracted_squared<R: Real>(eta: R, c: R) -> R {
+    let ((p, p_low), (q, q_low)) = (eta.two_prod(eta), c.two_prod(c));
+    let (sum, sum_low) = p.two_sum(q);
+    let (g2, g2_low) = sum.two_sum(lit(-1.0));
+    g2 + (g2_low + (sum_low + (p_low + q_low)))
+}
+
+/// Exact Fresnel reflectance of a dielectric, unpolarised, η = n_t/n_i.
+///
+/// F = (r_s² + r_p²)/2 with g = sqrt(η² − 1 + c²), r_s = (c − g)/(c + g),
+/// r_p = (η² c − g)/(η² c + g); 1 where g² < 0, total internal reflection. Cook and Torrance
+/// 1982, eq. 15, in amplitudes.
+///
+/// The differences in the numerators are multiplied out, so that η near 1 keeps its digits:
+/// r_s = (η² − 1)/(c + g)², r_p = (η² − 1)(c² (η² + 1) − 1)/(η² c + g)².
+/// η = 1 gives 0: there is no interface.
+#[inline(always)]
+pub fn f_dielectric<R: Real>(eta: R, v_dot_h: R) -> R {
+    let c = unit(v_dot_h);
+    let eta = eta.abs().at_most(lit(R::LARGE));
+    let g2 = refracted_squared(eta, c);
+    if g2 < lit(0.0) {
+        return lit(1.0);
+    }
+    let g = g2.sqrt();
+    let sum_s = c + g;
+    if sum_s == lit(0.0) {
+        return lit(0.0);
+    }
+    let eta2 = eta * eta;
+    let sum_p = eta2 * c + g;
+    let (below, above) = (eta - lit(1.0), eta + lit(1.0));
+    let r_s = (below / sum_s) * (above / sum_s);
+    let brewster = c * c * (eta2 + lit(1.0)) - lit(1.0);
+    let r_p = (below * above / sum_p) * (brewster / sum_p);
+    lit::<R>(0.5) * (r_s * r_s + r_p * r_p)
+}
+
+const ETA: Param = Param {
+    name: "eta",
+    range: (0.3, 4.0),
+    unit: "1",
+    meaning: "index of refraction, transmitted over incident",
+};
+
+const F_DIELECTRIC: Term = entry!(
+    f_dielectric(eta: ETA, v_dot_h: V_DOT_H),
+    symbol: "F_dielectric", latex: r"F_{\mathrm{dielectric}}", cost: 40,
+    doc: "exact Fresnel reflectance of a dielectric, unpolarised, 0 to 1",
+    source: "Fresnel's equations; Cook and Torrance 1982, eq. 15",
+    wgsl: Some("fn lobe_f_dielectric(eta: f32, v_dot_h: f32) -> f32 {
+    let c = clamp(v_dot_h, 0.0, 1.0);
+    let g2 = (eta - 1.0) * (eta + 1.0) + c * c;
+    if (g2 < 0.0) { return 1.0; }
+    let g = sqrt(g2);
+    if (c + g == 0.0) { return 0.0; }
+    let d = (eta - 1.0) * (eta + 1.0);
+    let e2 = eta * eta;
+    let s = c + g;
+    let p = e2 * c + g;
+    let r_s = d / (s * s);
+    let r_p = d / p * ((c * c * (e2 + 1.0) - 1.0) / p);
+    return 0.5 * (r_s * r_s + r_p * r_p);
+}")
+);
+
+/// Exact Fresnel reflectance of a conductor with complex index n + ik, unpolarised.
+///
+/// With a² − b² = n² − k² − sin²θ and a b = n k: R_s = ((a − c)² + b²)/((a + c)² + b²),
+/// R_p = R_s ((a c − s²)² + b² c²)/((a c + s²)² + b² c²), F = (R_s + R_p)/2. Born and Wolf,
+/// section 14.2; Lagarde 2013. `k = 0` is the dielectric of index n.
+///
+/// The smaller of a² and b² is n²k² over the larger, and a − c and a c − s² are quotients of
+/// differences of squares.
+#[inline(always)]
+pub fn f_conductor<R: Real>(n: R, k: R, v_dot_h: R) -> R {
+    let [zero, one, two] = [lit::<R>(0.0), lit(1.0), lit(2.0)];
+    let c = unit(v_dot_h);
+    let (n, k) = (
+        n.abs().at_most(lit(R::LARGE)),
+        k.abs().at_most(lit(R::LARGE)),
+    );
+    let s2 = (one - c) * (one + c);
+    // n² − k² − s² to its last digit, for the critical angle of n < 1.
+    let ((nn, nn_low), (kk, kk_low)) = (n.two_prod(n), k.two_prod(k));
+    let (cc, cc_low) = c.two_prod(c);
+    let (x, x_low) = nn.two_sum(cc);
+    let (y, y_low) = x.two_sum(-kk);
+    let (z, z_low) = y.two_sum(-one);
+    let t0 = z + (z_low + (y_low + (x_low + (nn_low + (cc_low - kk_low)))));
+    let nk = n * k;
+    let large = lit::<R>(0.5) * (t0.hypot(two * nk) + t0.abs());
+    let small = if large > zero {
+        nk * (nk / large)
+    } else {
+        large
+    };
+    let (a2, b2) = if t0 < zero {
+        (small, large)
+    } else {
+        (large, small)
+    };
+    let a = a2.sqrt();
+    // a² − c²
+    let d = (n - one) * (n + one) + (b2 - k * k);
+    let plus = a + c;
+    let minus = if plus > zero { d / plus } else { plus };
+    let den_s = plus * plus + b2;
+    if den_s == zero {
+        return zero;
+    }
+    let r_s = (minus * minus + b2) / den_s;
+    let sum = a * c + s2;
+    let difference = if sum > zero {
+        (c * c * (two + d) - one) / sum
+    } else {
+        sum
+    };
+    let bc2 = b2 * (c * c);
+    let den_p = sum * sum + bc2;
+    let p = if den_p > zero {
+        (difference * difference + bc2) / den_p
+    } else {
+        one
+    };
+    lit::<R>(0.5) * r_s * (one + p)
+}
+
+const N: Param = Param {
+    name: "n",
+    range: (0.05, 4.0),
+    unit: "1",
+    meaning: "real part of the index of refraction",
+};
+const K: Param = Param {
+    name: "k",
+    range: (0.0, 8.0),
+    unit: "1",
+    meaning: "imaginary part of the index of refraction",
+};
+
+const F_CONDUCTOR: Term = entry!(
+    f_conductor(n: N, k: K, v_dot_h: V_DOT_H),
+    symbol: "F_conductor", latex: r"F_{\mathrm{conductor}}", cost: 90,
+    doc: "exact Fresnel reflectance of a conductor with index n + ik, unpolarised, 0 to 1",
+    source: "Born and Wolf, section 14.2; Lagarde 2013",
+    wgsl: Some("fn lobe_f_conductor(n: f32, k: f32, v_dot_h: f32) -> f32 {
+    let c = clamp(v_dot_h, 0.0, 1.0);
+    let s2 = (1.0 - c) * (1.0 + c);
+    let t0 = n * n - k * k - s2;
+    let nk = n * k;
+    let large = 0.5 * (sqrt(t0 * t0 + 4.0 * nk * nk) + abs(t0));
+    var small = 0.0;
+    if (large > 0.0) { small = nk * (nk / large); }
+    let a2 = select(large, small, t0 < 0.0);
+    let b2 = select(small, large, t0 < 0.0);
+    let a = sqrt(a2);
+    let r_s = ((a - c) * (a - c) + b2) / ((a + c) * (a + c) + b2);
+    let bc2 = b2 * c * c;
+    let r_p = ((a * c - s2) * (a * c - s2) + bc2) / ((a * c + s2) * (a * c + s2) + bc2);
+    return 0.5 * r_s * (1.0 + r_p);
+}")
+);
+
+/// Lazányi's correction for metals: F = f0 + (1 − f0)(1 − V·H)⁵ − a V·H (1 − V·H)⁶.
+///
+/// Lazányi and Szirmay-Kalos 2005, eq. 5: Schlick minus the dip that metals with a large
+/// extinction show before grazing (a is fitted; 17.6 f0-dependent in the later literature).
+/// Not kept in [0, 1]: a large `a` makes it negative.
+#[inline(always)]
+pub fn f_lazanyi<R: Real>(f0: R, a: R, v_dot_h: R) -> R {
+    let u = unit(v_dot_h);
+    let m = lit::<R>(1.0) - u;
+    let m5 = m.pow5();
+    f0 + m5 * ((lit::<R>(1.0) - f0) - a * u * m)
+}
+
+const A: Param = Param {
+    name: "a",
+    range: (0.0, 3.0),
+    unit: "1",
+    meaning: "depth of the dip before grazing",
+};
+
+const F_LAZANYI: Term = entry!(
+    f_lazanyi(f0: F0, a: A, v_dot_h: V_DOT_H),
+    symbol: "F_Lazányi", latex: r"F_{\mathrm{Lazanyi}}", cost: 11,
+    doc: "Schlick's approximation with Lazányi's correction for metals",
+    source: "Lazányi and Szirmay-Kalos 2005, eq. 5",
+    wgsl: Some("fn lobe_f_lazanyi(f0: f32, a: f32, v_dot_h: f32) -> f32 {
+    let u = clamp(v_dot_h, 0.0, 1.0);
+    let m = 1.0 - u;
+    let m2 = m * m;
+    return f0 + m2 * m2 * m * ((1.0 - f0) - a * u * m);
+}")
+);

@@ -1,0 +1,246 @@
+//! The numbers the formulas are generic over.
+
+use std::fmt::Debug;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// Floating point that a formula can be evaluated in: `f32` and `f64`.
+///
+/// The elementary functions come from `libm`, so that results do not depend on the
+/// platform's C library. There is no `mul_add`: without hardware FMA it is a library call.
+pub trait Real:
+    Copy
+    + PartialOrd
+    + Debug
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// Distance from 1 to the next larger number.
+    const EPSILON: f64;
+    /// A number whose square, and four times that, is still finite: arguments beyond it are
+    /// cut off where only their limit matters.
+    const LARGE: f64;
+    /// 2^k + 1 with k half the bits of the significand, for Dekker's splitting.
+    const SPLITTER: f64;
+
+    /// The nearest number to `x`.
+    fn of(x: f64) -> Self;
+    /// As an `f64`, exactly.
+    fn to_f64(self) -> f64;
+    /// Square root, correctly rounded.
+    fn sqrt(self) -> Self;
+    /// Absolute value.
+    fn abs(self) -> Self;
+    /// e^x.
+    fn exp(self) -> Self;
+    /// 2^x.
+    fn exp2(self) -> Self;
+    /// Natural logarithm.
+    fn ln(self) -> Self;
+    /// ln(1 + x), accurate near 0.
+    fn ln_1p(self) -> Self;
+    /// `self` to the power `y`.
+    fn powf(self, y: Self) -> Self;
+    /// Cosine of an angle in radians.
+    fn cos(self) -> Self;
+    /// Arc sine in radians.
+    fn asin(self) -> Self;
+    /// Arc cosine in radians.
+    fn acos(self) -> Self;
+    /// Arc tangent in radians.
+    fn atan(self) -> Self;
+    /// Complementary error function.
+    fn erfc(self) -> Self;
+    /// Whether this is a NaN.
+    fn is_nan(self) -> bool;
+    /// Whether this is neither infinite nor a NaN.
+    fn is_finite(self) -> bool;
+
+    /// The larger of the two, and `self` where `self` is a NaN.
+    #[inline(always)]
+    fn at_least(self, low: Self) -> Self {
+        if low > self { low } else { self }
+    }
+
+    /// The smaller of the two, and `self` where `self` is a NaN.
+    #[inline(always)]
+    fn at_most(self, high: Self) -> Self {
+        if high < self { high } else { self }
+    }
+
+    /// x².
+    #[inline(always)]
+    fn squared(self) -> Self {
+        self * self
+    }
+
+    /// x⁵, as three products.
+    #[inline(always)]
+    fn pow5(self) -> Self {
+        let x2 = self * self;
+        x2 * x2 * self
+    }
+
+    /// sqrt(x² + y²) without overflow or underflow on the way.
+    #[inline(always)]
+    fn hypot(self, y: Self) -> Self {
+        let (a, b) = (self.abs(), y.abs());
+        let (large, small) = if b > a { (b, a) } else { (a, b) };
+        if large == Self::of(0.0) {
+            return large;
+        }
+        let ratio = small / large;
+        large * (Self::of(1.0) + ratio * ratio).sqrt()
+    }
+
+    /// The product as an unevaluated sum: rounded product and its rounding error (Dekker).
+    #[inline(always)]
+    fn two_prod(self, y: Self) -> (Self, Self) {
+        let split = |x: Self| {
+            let t = x * Self::of(Self::SPLITTER);
+            let high = t - (t - x);
+            (high, x - high)
+        };
+        let p = self * y;
+        let ((ah, al), (bh, bl)) = (split(self), split(y));
+        (p, ((ah * bh - p) + ah * bl + al * bh) + al * bl)
+    }
+
+    /// The sum as an unevaluated sum: rounded sum and its rounding error (Knuth).
+    #[inline(always)]
+    fn two_sum(self, y: Self) -> (Self, Self) {
+        let s = self + y;
+        let b = s - self;
+        (s, (self - (s - b)) + (y - b))
+    }
+}
+
+/// A constant in the precision of the formula around it.
+#[inline(always)]
+pub(crate) fn lit<R: Real>(x: f64) -> R {
+    R::of(x)
+}
+
+impl Real for f64 {
+    const EPSILON: f64 = f64::EPSILON;
+    const LARGE: f64 = 1e150;
+    const SPLITTER: f64 = 134_217_729.0;
+
+    #[inline(always)]
+    fn of(x: f64) -> f64 {
+        x
+    }
+    #[inline(always)]
+    fn to_f64(self) -> f64 {
+        self
+    }
+    #[inline(always)]
+    fn sqrt(self) -> f64 {
+        f64::sqrt(self)
+    }
+    #[inline(always)]
+    fn abs(self) -> f64 {
+        f64::abs(self)
+    }
+    fn exp(self) -> f64 {
+        libm::exp(self)
+    }
+    fn exp2(self) -> f64 {
+        libm::exp2(self)
+    }
+    fn ln(self) -> f64 {
+        libm::log(self)
+    }
+    fn ln_1p(self) -> f64 {
+        libm::log1p(self)
+    }
+    fn powf(self, y: f64) -> f64 {
+        libm::pow(self, y)
+    }
+    fn cos(self) -> f64 {
+        libm::cos(self)
+    }
+    fn asin(self) -> f64 {
+        libm::asin(self)
+    }
+    fn acos(self) -> f64 {
+        libm::acos(self)
+    }
+    fn atan(self) -> f64 {
+        libm::atan(self)
+    }
+    fn erfc(self) -> f64 {
+        libm::erfc(self)
+    }
+    #[inline(always)]
+    fn is_nan(self) -> bool {
+        f64::is_nan(self)
+    }
+    #[inline(always)]
+    fn is_finite(self) -> bool {
+        f64::is_finite(self)
+    }
+}
+
+impl Real for f32 {
+    const EPSILON: f64 = f32::EPSILON as f64;
+    const LARGE: f64 = 1e15;
+    const SPLITTER: f64 = 4097.0;
+
+    #[inline(always)]
+    fn of(x: f64) -> f32 {
+        x as f32
+    }
+    #[inline(always)]
+    fn to_f64(self) -> f64 {
+        f64::from(self)
+    }
+    #[inline(always)]
+    fn sqrt(self) -> f32 {
+        f32::sqrt(self)
+    }
+    #[inline(always)]
+    fn abs(self) -> f32 {
+        f32::abs(self)
+    }
+    fn exp(self) -> f32 {
+        libm::expf(self)
+    }
+    fn exp2(self) -> f32 {
+        libm::exp2f(self)
+    }
+    fn ln(self) -> f32 {
+        libm::logf(self)
+    }
+    fn ln_1p(self) -> f32 {
+        libm::log1pf(self)
+    }
+    fn powf(self, y: f32) -> f32 {
+        libm::powf(self, y)
+    }
+    fn cos(self) -> f32 {
+        libm::cosf(self)
+    }
+    fn asin(self) -> f32 {
+        libm::asinf(self)
+    }
+    fn acos(self) -> f32 {
+        libm::acosf(self)
+    }
+    fn atan(self) -> f32 {
+        libm::atanf(self)
+    }
+    fn erfc(self) -> f32 {
+        libm::erfcf(self)
+    }
+    #[inline(always)]
+    fn is_nan(self) -> bool {
+        f32::is_nan(self)
+    }
+    #[inline(always)]
+    fn is_finite(self) -> bool {
+        f32::is_finite(self)
+    }
+}

@@ -1,0 +1,393 @@
+//! Masking and shadowing by Smith's model: Λ, G₁, G₂ and the visibility V.
+//!
+//! Smith's surface is a height field whose slopes do not depend on one another. All of it
+//! follows from one function of the distribution, Λ (Heitz 2014, section 5):
+//!
+//! - G₁(v) = 1/(1 + Λ(v)), the share of facets turned to v that v sees;
+//! - G₂(l, v) = 1/(1 + Λ(l) + Λ(v)), the share that both see, with masking and shadowing
+//!   correlated through the height of the facet;
+//! - V = G₂/(4 N·L N·V), what remains of the BRDF next to D and F.
+//!
+//! A cosine at or below 0 is a direction below the horizon: Λ is +∞, G is 0. V is 0 below
+//! the horizon and takes its limit on it. Cosines above 1 count as 1. Only α² enters, but
+//! for Hammon's approximation, which expects α in [0, 1].
+
+use crate::real::{Real, lit};
+use crate::term::{ALPHA, N_DOT_L, N_DOT_V, N_DOT_X, Term, entry};
+
+pub(crate) const TERMS: &[Term] = &[
+    LAMBDA_GGX,
+    LAMBDA_BECKMANN,
+    G1_GGX,
+    G1_BECKMANN,
+    G1_BECKMANN_RATIONAL,
+    G2_GGX,
+    G2_GGX_SEPARABLE,
+    G2_GGX_HAMMON,
+    G2_BECKMANN,
+    V_GGX,
+    V_GGX_SEPARABLE,
+    V_GGX_HAMMON,
+];
+
+/// sin θ of a cosine in [0, 1].
+#[inline(always)]
+pub(crate) fn sine<R: Real>(c: R) -> R {
+    ((lit::<R>(1.0) - c) * (lit::<R>(1.0) + c))
+        .at_least(lit(0.0))
+        .sqrt()
+}
+
+/// sqrt(c² + α² s²), which is c sqrt(1 + α² tan²θ): no quotient, and no α² − 1.
+#[inline(always)]
+fn projected<R: Real>(c: R, alpha: R) -> R {
+    c.hypot(alpha * sine(c))
+}
+
+/// Λ of GGX: (sqrt(1 + α² tan²θ) − 1)/2.
+///
+/// Heitz 2014, eq. 72. Range 0 to +∞, 0 at normal incidence.
+///
+/// The printed form cancels where α tan θ is small; multiplied out, with x = α² tan²θ, it is
+/// x/(2 (1 + sqrt(1 + x))), and for large x the same divided by the root.
+#[inline(always)]
+pub fn lambda_ggx<R: Real>(n_dot_x: R, alpha: R) -> R {
+    if n_dot_x <= lit(0.0) {
+        return lit::<R>(1.0) / lit(0.0);
+    }
+    let c = n_dot_x.at_most(lit(1.0));
+    let t = (alpha * sine(c)).abs() / c;
+    if t > lit(1.0) {
+        let r = lit::<R>(1.0) / t;
+        lit::<R>(0.5) * t / (r + (lit::<R>(1.0) + r * r).sqrt())
+    } else {
+        lit::<R>(0.5) * (t * t) / (lit::<R>(1.0) + (lit::<R>(1.0) + t * t).sqrt())
+    }
+}
+
+const LAMBDA_GGX: Term = entry!(
+    lambda_ggx(n_dot_x: N_DOT_X, alpha: ALPHA),
+    symbol: "Λ_GGX", latex: r"\Lambda_{\mathrm{GGX}}", cost: 14,
+    doc: "Smith's Lambda of GGX, 0 to infinity",
+    source: "Heitz 2014, eq. 72",
+    wgsl: Some("fn lobe_lambda_ggx(n_dot_x: f32, alpha: f32) -> f32 {
+    if (n_dot_x <= 0.0) { return 3.0e38; }
+    let c = min(n_dot_x, 1.0);
+    let x = alpha * alpha * (1.0 - c) * (1.0 + c) / (c * c);
+    return 0.5 * x / (1.0 + sqrt(1.0 + x));
+}")
+);
+
+/// K with sqrt(π) erfcx(a) = 1/(a + K), by the continued fraction of erfc.
+#[inline(always)]
+fn erfc_tail<R: Real>(a: R, terms: u32) -> R {
+    let mut k = lit::<R>(0.0);
+    let mut n = terms;
+    while n > 0 {
+        k = lit::<R>(0.5 * f64::from(n)) / (a + k);
+        n -= 1;
+    }
+    k
+}
+
+/// Λ of Beckmann: (erf(a) − 1)/2 + exp(−a²)/(2 a sqrt(π)), a = 1/(α tan θ).
+///
+/// Heitz 2014, eq. 66 and 61. Range 0 to +∞.
+///
+/// The two terms cancel: at a = 5 they agree to all but the last two digits.
+pub fn lambda_beckmann<R: Real>(n_dot_x: R, alpha: R) -> R {
+    if n_dot_x <= lit(0.0) {
+        return lit::<R>(1.0) / lit(0.0);
+    }
+    let c = n_dot_x.at_most(lit(1.0));
+    let t = (alpha * sine(c)).abs();
+    if t == lit(0.0) {
+        return t;
+    }
+    let a = c / t;
+    const SQRT_PI: f64 = 1.772_453_850_905_516;
+    if a > lit(28.0) {
+        return lit(0.0);
+    }
+    let gauss = (-(a * a)).exp();
+    if a > lit(1.25) {
+        let k = erfc_tail(a, 80);
+        lit::<R>(0.5 / SQRT_PI) * gauss * k / (a * (a + k))
+    } else {
+        lit::<R>(0.5) * (gauss / (a * lit(SQRT_PI)) - a.erfc())
+    }
+}
+
+const LAMBDA_BECKMANN: Term = entry!(
+    lambda_beckmann(n_dot_x: N_DOT_X, alpha: ALPHA),
+    symbol: "Λ_Beckmann", latex: r"\Lambda_{\mathrm{Beckmann}}", cost: 60,
+    doc: "Smith's Lambda of the Beckmann distribution, 0 to infinity",
+    source: "Heitz 2014, eq. 66 and 61",
+    wgsl: Some("fn lobe_lambda_beckmann(n_dot_x: f32, alpha: f32) -> f32 {
+    if (n_dot_x <= 0.0) { return 3.0e38; }
+    let c = min(n_dot_x, 1.0);
+    let t = alpha * sqrt(max((1.0 - c) * (1.0 + c), 0.0));
+    if (t * 12.0 <= c) { return 0.0; }
+    let a = c / t;
+    var k = 0.0;
+    for (var n = 24; n > 0; n--) { k = 0.5 * f32(n) / (a + k); }
+    if (a < 1.0) {
+        let y = 1.0 / (1.0 + 0.47047 * a);
+        k = 0.56418958354775629 / (y * (0.3480242 + y * (-0.0958798 + y * 0.7478556))) - a;
+    }
+    return 0.28209479177387814 * exp(-a * a) * k / (a * (a + k));
+}")
+);
+
+/// G₁ of GGX: 2 c / (c + sqrt(c² + α² s²)).
+///
+/// Walter et al. 2007, eq. 34; Heitz 2014, eq. 43. Range 0 to 1.
+#[inline(always)]
+pub fn g1_ggx<R: Real>(n_dot_x: R, alpha: R) -> R {
+    if n_dot_x <= lit(0.0) {
+        return lit(0.0);
+    }
+    let c = n_dot_x.at_most(lit(1.0));
+    lit::<R>(2.0) * (c / (c + projected(c, alpha)))
+}
+
+const G1_GGX: Term = entry!(
+    g1_ggx(n_dot_x: N_DOT_X, alpha: ALPHA),
+    symbol: "G₁", latex: r"G_1", cost: 12,
+    doc: "Smith's masking of GGX, 0 to 1",
+    source: "Walter et al. 2007, eq. 34; Heitz 2014, eq. 43",
+    wgsl: Some("fn lobe_g1_ggx(n_dot_x: f32, alpha: f32) -> f32 {
+    if (n_dot_x <= 0.0) { return 0.0; }
+    let c = min(n_dot_x, 1.0);
+    return 2.0 * c / (c + sqrt(c * c + alpha * alpha * (1.0 - c) * (1.0 + c)));
+}")
+);
+
+/// G₁ of Beckmann: 1/(1 + Λ).
+///
+/// Heitz 2014, eq. 43 with 66; Walter et al. 2007, eq. 23. Range 0 to 1.
+pub fn g1_beckmann<R: Real>(n_dot_x: R, alpha: R) -> R {
+    lit::<R>(1.0) / (lit::<R>(1.0) + lambda_beckmann(n_dot_x, alpha))
+}
+
+const G1_BECKMANN: Term = entry!(
+    g1_beckmann(n_dot_x: N_DOT_X, alpha: ALPHA),
+    symbol: "G₁", latex: r"G_1", cost: 62,
+    doc: "Smith's masking of the Beckmann distribution, 0 to 1",
+    source: "Heitz 2014, eq. 43 and 66; Walter et al. 2007, eq. 23",
+    wgsl: Some("fn lobe_g1_beckmann(n_dot_x: f32, alpha: f32) -> f32 {
+    return 1.0 / (1.0 + lobe_lambda_beckmann(n_dot_x, alpha));
+}"),
+    needs: ["lambda_beckmann"]
+);
+
+/// Walter's rational fit of G₁ of Beckmann in a = 1/(α tan θ), 1 for a ≥ 1.6.
+///
+/// Walter et al. 2007, eq. 27. Within 0.35 % of the exact one. It exceeds 1 (by 6e-5) for a
+/// between 1.5481 and 1.6, and jumps at 1.6.
+#[inline(always)]
+pub fn g1_beckmann_rational<R: Real>(n_dot_x: R, alpha: R) -> R {
+    if n_dot_x <= lit(0.0) {
+        return lit(0.0);
+    }
+    let c = n_dot_x.at_most(lit(1.0));
+    let t = (alpha * sine(c)).abs();
+    if t == lit(0.0) {
+        return lit(1.0);
+    }
+    let a = c / t;
+    if a >= lit(1.6) {
+        return lit(1.0);
+    }
+    a * (lit::<R>(3.535) + lit::<R>(2.181) * a)
+        / (lit::<R>(1.0) + a * (lit::<R>(2.276) + lit::<R>(2.577) * a))
+}
+
+const G1_BECKMANN_RATIONAL: Term = entry!(
+    g1_beckmann_rational(n_dot_x: N_DOT_X, alpha: ALPHA),
+    symbol: "G₁", latex: r"G_1", cost: 16,
+    doc: "Walter's rational fit of Smith's masking for Beckmann (slightly above 1 just below a = 1.6)",
+    source: "Walter et al. 2007, eq. 27",
+    wgsl: Some("fn lobe_g1_beckmann_rational(n_dot_x: f32, alpha: f32) -> f32 {
+    if (n_dot_x <= 0.0) { return 0.0; }
+    let c = min(n_dot_x, 1.0);
+    let t = alpha * sqrt(max((1.0 - c) * (1.0 + c), 0.0));
+    if (c >= 1.6 * t) { return 1.0; }
+    let a = c / t;
+    return a * (3.535 + 2.181 * a) / (1.0 + a * (2.276 + 2.577 * a));
+}")
+);
+
+/// Height-correlated G₂ of GGX: 1/(1 + Λ(l) + Λ(v)).
+///
+/// Heitz 2014, eq. 99; Ross et al. 2005. Range 0 to 1; 4 N·L N·V times [`v_ggx`].
+#[inline(always)]
+pub fn g2_ggx<R: Real>(n_dot_l: R, n_dot_v: R, alpha: R) -> R {
+    lit::<R>(1.0) / (lit::<R>(1.0) + (lambda_ggx(n_dot_l, alpha) + lambda_ggx(n_dot_v, alpha)))
+}
+
+const G2_GGX: Term = entry!(
+    g2_ggx(n_dot_l: N_DOT_L, n_dot_v: N_DOT_V, alpha: ALPHA),
+    symbol: "G₂", latex: r"G_2", cost: 30,
+    doc: "Smith's height-correlated masking-shadowing of GGX, 0 to 1",
+    source: "Heitz 2014, eq. 99",
+    wgsl: Some("fn lobe_g2_ggx(n_dot_l: f32, n_dot_v: f32, alpha: f32) -> f32 {
+    if (n_dot_l <= 0.0 || n_dot_v <= 0.0) { return 0.0; }
+    let l = min(n_dot_l, 1.0);
+    let v = min(n_dot_v, 1.0);
+    let a2 = alpha * alpha;
+    return 2.0 * l * v / (l * sqrt(v * v + a2 * (1.0 - v) * (1.0 + v)) + v * sqrt(l * l + a2 * (1.0 - l) * (1.0 + l)));
+}")
+);
+
+/// Separable G₂ of GGX: G₁(l) G₁(v), masking and shadowing as if independent.
+///
+/// Walter et al. 2007, eq. 23; Heitz 2014, eq. 98. Never above [`g2_ggx`]; their ratio is
+/// 1 − (1 − G₁(l))(1 − G₁(v)).
+#[inline(always)]
+pub fn g2_ggx_separable<R: Real>(n_dot_l: R, n_dot_v: R, alpha: R) -> R {
+    g1_ggx(n_dot_l, alpha) * g1_ggx(n_dot_v, alpha)
+}
+
+const G2_GGX_SEPARABLE: Term = entry!(
+    g2_ggx_separable(n_dot_l: N_DOT_L, n_dot_v: N_DOT_V, alpha: ALPHA),
+    symbol: "G₂", latex: r"G_2", cost: 25,
+    doc: "Smith's separable masking-shadowing of GGX, G1 times G1, 0 to 1",
+    source: "Walter et al. 2007, eq. 23; Heitz 2014, eq. 98",
+    wgsl: Some("fn lobe_g2_ggx_separable(n_dot_l: f32, n_dot_v: f32, alpha: f32) -> f32 {
+    return lobe_g1_ggx(n_dot_l, alpha) * lobe_g1_ggx(n_dot_v, alpha);
+}"),
+    needs: ["g1_ggx"]
+);
+
+/// Hammon's approximation of G₂: 2 N·L N·V / lerp(2 N·L N·V, N·L + N·V, α).
+///
+/// Hammon 2017 (GDC). Never above [`g2_ggx`], equal at α = 0 and 1 and where a cosine is 1;
+/// up to 29 % below it for smooth surfaces at grazing angles.
+#[inline(always)]
+pub fn g2_ggx_hammon<R: Real>(n_dot_l: R, n_dot_v: R, alpha: R) -> R {
+    if n_dot_l <= lit(0.0) || n_dot_v <= lit(0.0) {
+        return (n_dot_l + n_dot_v + alpha) * lit(0.0);
+    }
+    let (l, v) = (n_dot_l.at_most(lit(1.0)), n_dot_v.at_most(lit(1.0)));
+    let product = lit::<R>(2.0) * (l * v);
+    product / hammon_lerp(l, v, alpha)
+}
+
+/// lerp(2 l v, l + v, α).
+#[inline(always)]
+fn hammon_lerp<R: Real>(l: R, v: R, alpha: R) -> R {
+    let alpha = alpha.abs();
+    lit::<R>(2.0) * (l * v) * (lit::<R>(1.0) - alpha) + alpha * (l + v)
+}
+
+const G2_GGX_HAMMON: Term = entry!(
+    g2_ggx_hammon(n_dot_l: N_DOT_L, n_dot_v: N_DOT_V, alpha: ALPHA),
+    symbol: "G₂", latex: r"G_2", cost: 9,
+    doc: "Hammon's approximation of the height-correlated G2 of GGX, 0 to 1",
+    source: "Hammon 2017",
+    wgsl: Some("fn lobe_g2_ggx_hammon(n_dot_l: f32, n_dot_v: f32, alpha: f32) -> f32 {
+    if (n_dot_l <= 0.0 || n_dot_v <= 0.0) { return 0.0; }
+    let l = min(n_dot_l, 1.0);
+    let v = min(n_dot_v, 1.0);
+    return 2.0 * l * v / mix(2.0 * l * v, l + v, alpha);
+}")
+);
+
+/// Height-correlated G₂ of Beckmann: 1/(1 + Λ(l) + Λ(v)).
+///
+/// Heitz 2014, eq. 99 with 66. Range 0 to 1.
+pub fn g2_beckmann<R: Real>(n_dot_l: R, n_dot_v: R, alpha: R) -> R {
+    lit::<R>(1.0)
+        / (lit::<R>(1.0) + (lambda_beckmann(n_dot_l, alpha) + lambda_beckmann(n_dot_v, alpha)))
+}
+
+const G2_BECKMANN: Term = entry!(
+    g2_beckmann(n_dot_l: N_DOT_L, n_dot_v: N_DOT_V, alpha: ALPHA),
+    symbol: "G₂", latex: r"G_2", cost: 122,
+    doc: "Smith's height-correlated masking-shadowing of the Beckmann distribution, 0 to 1",
+    source: "Heitz 2014, eq. 99 and 66",
+    wgsl: Some("fn lobe_g2_beckmann(n_dot_l: f32, n_dot_v: f32, alpha: f32) -> f32 {
+    return 1.0 / (1.0 + lobe_lambda_beckmann(n_dot_l, alpha) + lobe_lambda_beckmann(n_dot_v, alpha));
+}"),
+    needs: ["lambda_beckmann"]
+);
+
+/// Visibility of GGX, height-correlated: V = G₂/(4 N·L N·V)
+/// = 0.5 / (N·L sqrt(α² + (1 − α²)(N·V)²) + N·V sqrt(α² + (1 − α²)(N·L)²)).
+///
+/// Heitz 2014, eq. 99; in this form Lagarde and de Rousiers 2014, listing 2. Range 0 to +∞;
+/// finite on the horizon, 1/(2 α N·L) where N·V = 0.
+#[inline(always)]
+pub fn v_ggx<R: Real>(n_dot_l: R, n_dot_v: R, alpha: R) -> R {
+    if n_dot_l < lit(0.0) || n_dot_v < lit(0.0) {
+        return (n_dot_l + n_dot_v + alpha) * lit(0.0);
+    }
+    let (l, v) = (n_dot_l.at_most(lit(1.0)), n_dot_v.at_most(lit(1.0)));
+    lit::<R>(0.5) / (l * projected(v, alpha) + v * projected(l, alpha))
+}
+
+const V_GGX: Term = entry!(
+    v_ggx(n_dot_l: N_DOT_L, n_dot_v: N_DOT_V, alpha: ALPHA),
+    symbol: "V_GGX", latex: r"V_{\mathrm{GGX}}", cost: 24,
+    doc: "visibility of GGX: height-correlated G2 over 4 N·L N·V, 0 to infinity",
+    source: "Heitz 2014, eq. 99; Lagarde and de Rousiers 2014, listing 2",
+    wgsl: Some("fn lobe_v_ggx(n_dot_l: f32, n_dot_v: f32, alpha: f32) -> f32 {
+    if (n_dot_l < 0.0 || n_dot_v < 0.0) { return 0.0; }
+    let l = min(n_dot_l, 1.0);
+    let v = min(n_dot_v, 1.0);
+    let a2 = alpha * alpha;
+    return 0.5 / (l * sqrt(v * v + a2 * (1.0 - v) * (1.0 + v)) + v * sqrt(l * l + a2 * (1.0 - l) * (1.0 + l)));
+}")
+);
+
+/// Visibility of GGX, separable: G₁(l) G₁(v)/(4 N·L N·V)
+/// = 1 / ((N·L + sqrt(…)) (N·V + sqrt(…))).
+///
+/// Walter et al. 2007, eq. 23 and 34.
+#[inline(always)]
+pub fn v_ggx_separable<R: Real>(n_dot_l: R, n_dot_v: R, alpha: R) -> R {
+    if n_dot_l < lit(0.0) || n_dot_v < lit(0.0) {
+        return (n_dot_l + n_dot_v + alpha) * lit(0.0);
+    }
+    let (l, v) = (n_dot_l.at_most(lit(1.0)), n_dot_v.at_most(lit(1.0)));
+    lit::<R>(1.0) / (l + projected(l, alpha)) / (v + projected(v, alpha))
+}
+
+const V_GGX_SEPARABLE: Term = entry!(
+    v_ggx_separable(n_dot_l: N_DOT_L, n_dot_v: N_DOT_V, alpha: ALPHA),
+    symbol: "V_GGX", latex: r"V_{\mathrm{GGX}}", cost: 24,
+    doc: "separable visibility of GGX: G1 times G1 over 4 N·L N·V, 0 to infinity",
+    source: "Walter et al. 2007, eq. 23 and 34",
+    wgsl: Some("fn lobe_v_ggx_separable(n_dot_l: f32, n_dot_v: f32, alpha: f32) -> f32 {
+    if (n_dot_l < 0.0 || n_dot_v < 0.0) { return 0.0; }
+    let l = min(n_dot_l, 1.0);
+    let v = min(n_dot_v, 1.0);
+    let a2 = alpha * alpha;
+    return 1.0 / ((l + sqrt(l * l + a2 * (1.0 - l) * (1.0 + l))) * (v + sqrt(v * v + a2 * (1.0 - v) * (1.0 + v))));
+}")
+);
+
+/// Hammon's visibility: 0.5 / lerp(2 N·L N·V, N·L + N·V, α).
+///
+/// Hammon 2017 (GDC). [`g2_ggx_hammon`] over 4 N·L N·V.
+#[inline(always)]
+pub fn v_ggx_hammon<R: Real>(n_dot_l: R, n_dot_v: R, alpha: R) -> R {
+    if n_dot_l < lit(0.0) || n_dot_v < lit(0.0) {
+        return (n_dot_l + n_dot_v + alpha) * lit(0.0);
+    }
+    lit::<R>(0.5) / hammon_lerp(n_dot_l.at_most(lit(1.0)), n_dot_v.at_most(lit(1.0)), alpha)
+}
+
+const V_GGX_HAMMON: Term = entry!(
+    v_ggx_hammon(n_dot_l: N_DOT_L, n_dot_v: N_DOT_V, alpha: ALPHA),
+    symbol: "V_GGX", latex: r"V_{\mathrm{GGX}}", cost: 8,
+    doc: "Hammon's approximation of the visibility of GGX, 0 to infinity",
+    source: "Hammon 2017",
+    wgsl: Some("fn lobe_v_ggx_hammon(n_dot_l: f32, n_dot_v: f32, alpha: f32) -> f32 {
+    if (n_dot_l < 0.0 || n_dot_v < 0.0) { return 0.0; }
+    let l = min(n_dot_l, 1.0);
+    let v = min(n_dot_v, 1.0);
+    return 0.5 / mix(2.0 * l * v, l + v, alpha);
+}")
+);
