@@ -1,0 +1,82 @@
+//! Exercises: drawn from a seed so that mistakes can be told apart, marked, hinted.
+//!
+//! Everything here is pure: the same lesson and seed give the same draw on every machine.
+
+mod draw;
+mod hint;
+mod mark;
+pub mod report;
+
+use formula::Values;
+
+pub use draw::draw;
+pub use hint::{hint, tolerance_words};
+pub use mark::{Marking, OffBy, mark};
+
+/// An exercise with its numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Draw {
+    /// The seed it was drawn from.
+    pub seed: u64,
+    /// The numbers drawn.
+    pub given: Values,
+    /// The question as plain text.
+    pub prompt: String,
+    /// What is asked for, one after the other. A `find-the-mistake` has the steps `line` and
+    /// `answer`; `choice` and `order` have none.
+    pub steps: Vec<StepTruth>,
+    /// The exercise's truth.
+    pub truth: Truth,
+    /// What `choice` and `order` show, in the order shown; the lines of a `find-the-mistake`.
+    pub shown: Vec<String>,
+    /// Every mistake that would be recognised, with the number it gives.
+    pub mistakes: Vec<Mistake>,
+    /// How many draws were tried, this one included.
+    pub tries: u32,
+}
+
+/// One number asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StepTruth {
+    /// The step's name.
+    pub name: String,
+    /// How it is called when asked for, in the field's spelling.
+    pub ask: String,
+    /// Its true value; of the step `line`, the line's number from 1.
+    pub truth: f64,
+    /// The value as shown when given away.
+    pub shown: String,
+}
+
+/// What is right.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Truth {
+    /// A number.
+    Number(f64),
+    /// An option, by its place in `Draw::shown`, from 0.
+    Choice(usize),
+    /// The places in `Draw::shown`, from 0, in the right order.
+    Order(Vec<usize>),
+}
+
+/// A mistake and the number it gives with a draw's numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mistake {
+    /// The author's id, or the mutant's.
+    pub id: String,
+    /// The step whose answer it is recognised in.
+    pub step: String,
+    /// The number.
+    pub value: f64,
+    /// Whether the author named it.
+    pub named: bool,
+    /// What the tutor says (Markdown, templates filled).
+    pub says: String,
+}
+
+/// Why an exercise has no numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NoDraw {
+    /// One sentence.
+    pub message: String,
+}

@@ -1,0 +1,1 @@
+//! What `lobe exercise` and `lobe mark` print, ready to become JSON.

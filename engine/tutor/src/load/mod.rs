@@ -1,0 +1,509 @@
+//! A lesson file's text becomes a [`Lesson`], or findings that say what is wrong and where.
+//!
+//! Reading goes on after an error, so that one pass finds as many as it can.
+
+mod exercise;
+pub(crate) mod literal;
+mod reader;
+
+use std::cell::RefCell;
+
+use formula::{Digits, Library};
+use toml::de::DeTable;
+
+pub(crate) use reader::{capitalised, nearest};
+
+use crate::finding::{Finding, Place, Severity};
+use crate::judge::Judge;
+use crate::lesson::{
+    AxisX, AxisY, Claim, Column, Explain, ExplainStage, Fingerprint, FormulaEntry, Lesson, Limit,
+    Mark, Plot, Reteach, Series, SourceSays, Step, TakesUp, Test, Text, Worked, WorkedLine,
+};
+use crate::rubric::Rubric;
+use reader::{Source, Table, place};
+
+/// The only format there is so far.
+const FORMAT: u32 = 1;
+
+/// Reads a lesson. A lesson comes only without errors; total: any text gives an answer.
+pub fn load(file_name: &str, text: &str) -> (Option<Lesson>, Vec<Finding>) {
+    let source = Source {
+        file: file_name,
+        text,
+        findings: RefCell::new(Vec::new()),
+    };
+    let (root, errors) = DeTable::parse_recoverable(text);
+    let lesson = if errors.is_empty() {
+        let table = Table::new(&source, root.get_ref(), Place::default(), "The lesson");
+        Some(read_lesson(&table))
+    } else {
+        for error in errors {
+            source.report(syntax_finding(&source, &error));
+        }
+        None
+    };
+    let mut findings = source.findings.into_inner();
+    findings.sort_by(|a, b| (a.start, a.end, a.code).cmp(&(b.start, b.end, b.code)));
+    findings.dedup();
+    let broken = findings
+        .iter()
+        .any(|finding| finding.severity == Severity::Error);
+    (lesson.filter(|_| !broken), findings)
+}
+
+fn syntax_finding(source: &Source<'_>, error: &toml::de::Error) -> Finding {
+    let span = error.span().unwrap_or_default();
+    let at = Place {
+        start: span.start,
+        end: span.end,
+    };
+    // "invalid string, expected `=`": the second half is what should stand there.
+    let (message, expected) = match error.message().split_once(", expected ") {
+        Some((message, expected)) => (message, Some(expected)),
+        None => (error.message(), None),
+    };
+    let mut finding = source.finding(at, "toml", format!("{}.", capitalised(message)));
+    finding.expected = expected.map(str::to_owned);
+    finding
+}
+
+/// A stable hash of a file's text (FNV-1a, 64 bits), as 16 hexadecimal digits.
+fn hash(text: &str) -> String {
+    let hash = text.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    });
+    format!("{hash:016x}")
+}
+
+fn read_lesson(table: &Table<'_, '_>) -> Lesson {
+    if !table.has("format") {
+        table.missing("format", "format = 1");
+    } else if table.count("format", u32::MAX).is_some_and(|f| f != FORMAT) {
+        let message = "This format is not known here.".to_owned();
+        table.wrong("format", "unknown-format", message, "format = 1");
+    }
+    let id = table.need_text("id");
+    let (formulas, library) = read_formulas(table);
+    let worked = table
+        .table("worked", "[worked]")
+        .map(|worked| read_worked(&worked, &id));
+    let lesson = Lesson {
+        file: table.source.file.to_owned(),
+        hash: hash(table.source.text),
+        source: table.source.text.to_owned(),
+        title: table.need_text("title"),
+        needs: table.texts("needs"),
+        summary: table.need_text("summary"),
+        minutes: table.count("minutes", 600).unwrap_or(20),
+        why: table.need_text("why"),
+        model: table.need_text("model"),
+        takes_up: each(table, "takes_up", "[[takes_up]]", |entry| TakesUp {
+            slip: entry.need_text("slip"),
+            says: entry.need_text("says"),
+        }),
+        formulas,
+        library,
+        steps: each(table, "step", "[[step]]", |entry| Step {
+            title: entry.need_text("title"),
+            text: entry.need_text("text"),
+            figures: entry.figures(),
+        }),
+        sources: each_some(table, "source_says", "[[source_says]]", read_source),
+        tables: each(table, "table", "[[table]]", read_table),
+        plots: each(table, "plot", "[[plot]]", read_plot),
+        claims: each_some(table, "claim", "[[claim]]", read_claim),
+        exercises: each_some(table, "exercise", "[[exercise]]", |entry| {
+            exercise::read(entry, worked.as_ref())
+        }),
+        fingerprints: each_some(table, "fingerprint", "[[fingerprint]]", read_fingerprint),
+        reteach: each(table, "reteach", "[[reteach]]", |entry| Reteach {
+            id: entry.need_text("id"),
+            name: entry.need_text("name"),
+            title: entry.need_text("title"),
+            text: entry.need_text("text"),
+            figures: entry.figures(),
+        }),
+        explain: each_some(table, "explain", "[[explain]]", read_explain),
+        worked,
+        id,
+    };
+    table.finish();
+    lesson
+}
+
+/// Reads every entry of an array of tables, and reports its unknown keys.
+fn each<'s, 't, T>(
+    table: &Table<'s, 't>,
+    key: &'static str,
+    what: &str,
+    read: impl Fn(&Table<'s, 't>) -> T,
+) -> Vec<T> {
+    each_some(table, key, what, |entry| Some(read(entry)))
+}
+
+/// The same, leaving out the entries that cannot be read (and were reported).
+fn each_some<'s, 't, T>(
+    table: &Table<'s, 't>,
+    key: &'static str,
+    what: &str,
+    read: impl Fn(&Table<'s, 't>) -> Option<T>,
+) -> Vec<T> {
+    let entries = table.tables(key, what);
+    entries
+        .iter()
+        .filter_map(|entry| {
+            let found = read(entry);
+            entry.finish();
+            found
+        })
+        .collect()
+}
+
+fn read_formulas(table: &Table<'_, '_>) -> (Vec<FormulaEntry>, Library) {
+    let mut library = Library::new();
+    let mut entries = Vec::new();
+    for (name, value) in table.entries("formula") {
+        let what = format!("[formula.{name}]");
+        let Some(inner) = value.get_ref().as_table() else {
+            table.source.report(
+                table
+                    .source
+                    .finding(
+                        place(value),
+                        "wrong-kind",
+                        format!("`{name}` is not a table."),
+                    )
+                    .expecting(format!("[formula.{name}]")),
+            );
+            continue;
+        };
+        let entry = Table::new(table.source, inner, place(value), &what);
+        let of = entry.texts("of");
+        let is = entry.need_formula("is");
+        let (says, core) = (entry.text("says"), entry.text("core"));
+        entry.finish();
+        let Some(is) = is else { continue };
+        let params: Vec<&str> = of.iter().map(|param| param.text.as_str()).collect();
+        if let Err(error) = library.define(&name, &params, &is.text) {
+            table.source.report_formula(&is.text, &error);
+            continue;
+        }
+        entries.push(FormulaEntry {
+            name,
+            of,
+            is,
+            says,
+            core,
+        });
+    }
+    for (name, error) in library.check() {
+        if let Some(entry) = entries.iter().find(|entry| entry.name.text == name) {
+            table.source.report_formula(&entry.is.text, &error);
+        }
+    }
+    (entries, library)
+}
+
+fn read_worked(table: &Table<'_, '_>, lesson: &Text) -> Worked {
+    let lines = each_some(table, "line", "A line of [worked]", |line| {
+        Some(WorkedLine {
+            name: line.need_text("name"),
+            ask: line.text("ask"),
+            shown: line.text("shown"),
+            says: line.text("says"),
+            is: line.need_formula("is")?,
+        })
+    });
+    if lines.is_empty() {
+        table.missing("line", "line = [{ name = \"…\", is = \"…\" }]");
+    }
+    let faded = table.table("faded", "[worked.faded]").map(|faded| {
+        let found = exercise::read_faded(&faded, lesson, &lines);
+        faded.finish();
+        found
+    });
+    let worked = Worked {
+        title: table.need_text("title"),
+        intro: table.need_text("intro"),
+        given: table.givens("given"),
+        after: table.text("after"),
+        lines,
+        faded,
+    };
+    table.finish();
+    worked
+}
+
+fn read_source(table: &Table<'_, '_>) -> Option<SourceSays> {
+    let (id, where_, shown) = (
+        table.text("id"),
+        table.need_text("where"),
+        table.need_text("shown"),
+    );
+    let (with, says) = (table.givens("with"), table.need_text("says"));
+    let truth = table.formula("truth");
+    Some(SourceSays {
+        id,
+        where_,
+        shown,
+        with,
+        truth,
+        says,
+        is: table.need_formula("is")?,
+    })
+}
+
+fn read_table(table: &Table<'_, '_>) -> crate::lesson::Table {
+    let mut rows = Vec::new();
+    let mut row_texts = Vec::new();
+    for (name, value) in table.entries("rows") {
+        let Some(numbers) = table.numbers(value, &format!("`{name}`")) else {
+            continue;
+        };
+        let texts = value.get_ref().as_array().map_or_else(Vec::new, |array| {
+            array
+                .iter()
+                .map(|entry| table.source.text[entry.span()].trim().to_owned())
+                .collect()
+        });
+        if let Some((first, values)) = rows.first() as Option<&(Text, Vec<f64>)>
+            && values.len() != numbers.len()
+        {
+            let message = format!(
+                "`{name}` has {} numbers, but `{first}` has {}.",
+                numbers.len(),
+                values.len()
+            );
+            let finding = table
+                .source
+                .finding(place(value), "rows-differ", message)
+                .expecting(format!("{} numbers", values.len()));
+            table.source.report(finding);
+            continue;
+        }
+        rows.push((name, numbers));
+        row_texts.push(texts);
+    }
+    if !table.has("rows") {
+        table.missing("rows", "rows = { name = [0.5, 1.0] }");
+    }
+    let columns = each_some(table, "column", "A column", |column| {
+        let (title, shown) = (column.need_text("title"), column.texts("shown"));
+        let digits = column.count("digits", 17).map(Digits::Decimals);
+        let significant = column.count("significant", 17).map(Digits::Significant);
+        if digits.is_some() && significant.is_some() {
+            let message = "A column has `digits` (decimals) or `significant`, not both.";
+            column.wrong(
+                "significant",
+                "both-given",
+                message.to_owned(),
+                "one of them",
+            );
+        }
+        Some(Column {
+            title,
+            digits: digits.or(significant).unwrap_or(Digits::Significant(4)),
+            shown,
+            is: column.need_formula("is")?,
+        })
+    });
+    if columns.is_empty() {
+        table.missing(
+            "column",
+            "column = [{ title = \"…\", is = \"…\", digits = 2 }]",
+        );
+    }
+    let limit = table.table("limit", "`limit`").map(|limit| {
+        let found = Limit {
+            label: limit.need_text("label"),
+            cells: limit.texts("cells"),
+            at: limit.givens("at"),
+        };
+        limit.finish();
+        found
+    });
+    crate::lesson::Table {
+        id: table.need_text("id"),
+        title: table.need_text("title"),
+        with: table.givens("with"),
+        rows,
+        row_texts,
+        row_labels: table.texts("row_labels"),
+        columns,
+        limit,
+        note: table.text("note"),
+    }
+}
+
+fn read_plot(table: &Table<'_, '_>) -> Plot {
+    for axis in ["x", "y"] {
+        if !table.has(axis) {
+            table.missing(axis, &format!("{axis} = {{ label = \"…\" }}"));
+        }
+    }
+    let x = table.table("x", "The plot's `x`").map(|x| {
+        let need = |key: &'static str| {
+            if !x.has(key) {
+                x.missing(key, &format!("{key} = 1.0"));
+            }
+            x.number(key).unwrap_or(1.0)
+        };
+        let axis = AxisX {
+            name: x.need_text("name"),
+            from: need("from"),
+            to: need("to"),
+            label: x.need_text("label"),
+            log: x.bool("log").unwrap_or(false),
+        };
+        if x.has("from") && x.has("to") && axis.from >= axis.to {
+            let message = "The axis runs from a number to a greater one.".to_owned();
+            x.wrong(
+                "to",
+                "empty-range",
+                message,
+                &format!("more than {}", axis.from),
+            );
+        }
+        if axis.log && axis.from <= 0.0 {
+            let message = "A logarithmic axis starts above 0.".to_owned();
+            x.wrong("from", "empty-range", message, "a positive number");
+        }
+        x.finish();
+        axis
+    });
+    let y = table.table("y", "The plot's `y`").map(|y| {
+        let axis = AxisY {
+            label: y.need_text("label"),
+            log: y.bool("log").unwrap_or(false),
+            from: y.number("from"),
+            to: y.number("to"),
+        };
+        y.finish();
+        axis
+    });
+    let series = each_some(table, "series", "A series", |series| {
+        Some(Series {
+            label: series.need_text("label"),
+            with: series.givens("with"),
+            is: series.need_formula("is")?,
+        })
+    });
+    if series.is_empty() {
+        table.missing("series", "series = [{ label = \"…\", is = \"…\" }]");
+    }
+    Plot {
+        id: table.need_text("id"),
+        title: table.need_text("title"),
+        x: x.unwrap_or_else(|| AxisX {
+            name: Text::default(),
+            from: 0.0,
+            to: 1.0,
+            label: Text::default(),
+            log: false,
+        }),
+        y: y.unwrap_or_else(|| AxisY {
+            label: Text::default(),
+            log: false,
+            from: None,
+            to: None,
+        }),
+        with: table.givens("with"),
+        series,
+        marks: each_some(table, "mark", "A mark", |mark| {
+            let (label, with) = (mark.need_text("label"), mark.givens("with"));
+            let (x, is) = (mark.need_formula("x"), mark.need_formula("is"));
+            Some(Mark {
+                label,
+                with,
+                x: x?,
+                is: is?,
+            })
+        }),
+    }
+}
+
+fn read_claim(table: &Table<'_, '_>) -> Option<Claim> {
+    let (says, with) = (table.need_text("says"), table.givens("with"));
+    let rel = table.number("rel").unwrap_or(1e-9);
+    let (is, equals, holds) = (table.has("is"), table.has("equals"), table.has("holds"));
+    let test = if holds && !is && !equals {
+        Test::Holds(table.formula("holds")?)
+    } else if is && equals && !holds {
+        let (is, equals) = (table.formula("is"), table.formula("equals"));
+        Test::Equals {
+            is: is?,
+            equals: equals?,
+            rel,
+        }
+    } else {
+        let (_, _, _) = (table.get("is"), table.get("equals"), table.get("holds"));
+        table.missing("is", "either `is` and `equals`, or `holds`");
+        return None;
+    };
+    Some(Claim { says, with, test })
+}
+
+fn read_fingerprint(table: &Table<'_, '_>) -> Option<Fingerprint> {
+    let (id, title) = (table.need_text("id"), table.need_text("title"));
+    let (scene, shows, hides) = (
+        table.givens("scene"),
+        table.need_text("shows"),
+        table.text("hides"),
+    );
+    let (right, wrong) = (table.need_formula("right"), table.need_formula("wrong"));
+    Some(Fingerprint {
+        id,
+        title,
+        right: right?,
+        wrong: wrong?,
+        scene,
+        shows,
+        hides,
+    })
+}
+
+fn read_explain(table: &Table<'_, '_>) -> Option<Explain> {
+    let stage = match table.text("stage") {
+        None => ExplainStage::Explain,
+        Some(stage) => match stage.text.as_str() {
+            "explain" => ExplainStage::Explain,
+            "retest" => ExplainStage::Retest,
+            _ => {
+                let message = format!("`{stage}` is not a stage.");
+                table.wrong(
+                    "stage",
+                    "unknown-name",
+                    message,
+                    "\"explain\" or \"retest\"",
+                );
+                ExplainStage::Explain
+            }
+        },
+    };
+    let (id, prompt) = (table.need_text("id"), table.need_text("prompt"));
+    let (expectation, expectation_places) = table.deserialized("expectation");
+    let (misconception, misconception_places) = table.deserialized("misconception");
+    let (example, example_places) = table.deserialized("example");
+    if expectation.is_empty() {
+        table.missing("expectation", "[[explain.expectation]]");
+    }
+    let rubric = Rubric {
+        item: id.text.clone(),
+        prompt: prompt.text.clone(),
+        expectation,
+        misconception,
+        example,
+    };
+    Some(Explain {
+        id,
+        stage,
+        title: table.need_text("title"),
+        prompt,
+        model_answer: table.need_text("model_answer"),
+        judge: Judge::new(&rubric),
+        rubric,
+        expectation_places,
+        misconception_places,
+        example_places,
+    })
+}
