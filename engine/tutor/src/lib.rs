@@ -12,8 +12,11 @@ pub mod lesson;
 pub mod load;
 pub mod plot;
 pub mod prose;
+pub mod record;
 pub mod rubric;
+pub mod session;
 pub mod table;
+pub mod view;
 pub mod worked;
 
 pub use check::{check, check_all};

@@ -1,0 +1,353 @@
+//! Events become state. Total: an event that does not fit is passed over and remembered as such.
+
+use super::Session;
+use super::event::Event;
+use super::problem::{Problem, Turn, mix};
+use super::question::{Heard, Question, Try};
+use super::screen::{Screen, faded_lines};
+use crate::judge::Verdict;
+use crate::view::Stage;
+use std::collections::BTreeMap;
+
+impl Session {
+    /// Applies one event.
+    pub(super) fn apply(&mut self, event: &Event) {
+        match event {
+            Event::Next { stage, screen } | Event::Back { stage, screen } => {
+                // A re-teach belongs to the stage of its question, which came before it.
+                if *stage != Stage::Reteach {
+                    self.stage = *stage;
+                }
+                match Screen::find(&self.lesson, screen) {
+                    Some(screen) => self.go_to(screen),
+                    None => self.diverged = true,
+                }
+            }
+            Event::Revealed { lines } => self.revealed = *lines,
+            Event::Skip { screen } => {
+                self.skipped.insert(screen.clone());
+            }
+            Event::GoOn { item, round, step } => {
+                let step = step.clone();
+                self.turn(item, *round, Turn::GoneOn { step });
+            }
+            Event::Hint {
+                item,
+                round,
+                step,
+                level,
+            } => {
+                let level = (*level).clamp(1, 3);
+                if self.lesson.explain(item).is_some() {
+                    let index = round.clamp(&1, &2) - 1;
+                    self.question(item).hints[index as usize] = level;
+                } else {
+                    let step = step.clone();
+                    self.turn(item, *round, Turn::Hint { step, level });
+                }
+            }
+            Event::Draft { item, text } => self.question(item).draft.clone_from(text),
+            Event::Attempt {
+                item,
+                round,
+                step,
+                given,
+                text,
+                result,
+                mistake,
+                says,
+                ..
+            } => {
+                self.turn(
+                    item,
+                    *round,
+                    Turn::Attempt {
+                        step: step.clone(),
+                        text: text.clone(),
+                        result: result.clone(),
+                        mistake: mistake.clone(),
+                        says: says.clone(),
+                    },
+                );
+                if let Some(problem) = self.problems.get_mut(&(item.clone(), *round))
+                    && problem.given() != *given
+                {
+                    problem.stale = true;
+                    self.diverged = true;
+                }
+            }
+            Event::Explained { .. } => self.explained(event),
+            Event::Marked {
+                item,
+                attempt,
+                point,
+                said,
+            } => {
+                if let Some(tried) = self.tried(item, *attempt) {
+                    tried.marks.insert(point.clone(), *said);
+                }
+            }
+            Event::SelfMarked {
+                item,
+                attempt,
+                verdict,
+                met,
+                missed,
+                misconceptions,
+                slips,
+            } => {
+                if let Some(tried) = self.tried(item, *attempt) {
+                    tried.own = Some(Heard {
+                        verdict: Verdict::parse(verdict).unwrap_or(Verdict::Fail),
+                        met: met.clone(),
+                        missed: missed.clone(),
+                        misconceptions: misconceptions.clone(),
+                        slips: slips.clone(),
+                    });
+                }
+            }
+            Event::Finished { grade, words } => self.finished = Some((*grade, words.clone())),
+            Event::LessonChanged { stage, .. } => self.restart(*stage),
+        }
+    }
+
+    /// Shows a screen; one not seen before comes after the one shown now.
+    fn go_to(&mut self, screen: Screen) {
+        self.cursor = match self.trail.iter().position(|seen| *seen == screen) {
+            Some(seen) => seen,
+            None => {
+                self.trail.insert(self.cursor + 1, screen.clone());
+                self.cursor + 1
+            }
+        };
+        match screen {
+            Screen::Worked => self.revealed = self.revealed.max(1),
+            Screen::Faded(round) => {
+                if let Some(item) = self.faded_item() {
+                    self.begin(&item, round);
+                }
+            }
+            Screen::Practice(item) => self.begin(&item, 0),
+            Screen::Retest(item) => self.begin(&item, 1),
+            Screen::Explain { item, .. } => {
+                self.question(&item);
+            }
+            Screen::Why | Screen::Step(_) | Screen::Reteach { .. } | Screen::Result => {}
+        }
+    }
+
+    /// Draws an exercise's numbers, once.
+    fn begin(&mut self, item: &str, round: u32) {
+        let key = (item.to_owned(), round);
+        if self.problems.contains_key(&key) {
+            return;
+        }
+        let Some(exercise) = self.lesson.exercise(item) else {
+            self.diverged = true;
+            return;
+        };
+        let last = (self.faded_item().as_deref() == Some(item))
+            .then(|| faded_lines(&self.lesson, round))
+            .flatten();
+        let seed = mix(self.start.seed, item, round);
+        let problem = Problem::new(&self.lesson, exercise, seed, last);
+        self.problems.insert(key, problem);
+    }
+
+    fn turn(&mut self, item: &str, round: u32, turn: Turn) {
+        self.begin(item, round);
+        let Some(problem) = self.problems.get_mut(&(item.to_owned(), round)) else {
+            return;
+        };
+        if !problem.asked.iter().any(|asked| asked == turn.step()) {
+            self.diverged = true;
+        }
+        problem.turns.push(turn);
+    }
+
+    fn question(&mut self, item: &str) -> &mut Question {
+        self.questions.entry(item.to_owned()).or_default()
+    }
+
+    fn tried(&mut self, item: &str, attempt: u32) -> Option<&mut Try> {
+        let index = (attempt as usize).checked_sub(1)?;
+        let tried = self.questions.get_mut(item)?.tries.get_mut(index);
+        self.diverged |= tried.is_none();
+        tried
+    }
+
+    fn explained(&mut self, event: &Event) {
+        let Event::Explained {
+            item,
+            attempt,
+            text,
+            verdict,
+            met,
+            missed,
+            misconceptions,
+            slips,
+            unsure,
+            judge: _,
+            why,
+        } = event
+        else {
+            return;
+        };
+        let question = self.question(item);
+        if question.tries.len() + 1 != *attempt as usize {
+            self.diverged = true;
+            return;
+        }
+        question.draft.clear();
+        question.tries.push(Try {
+            text: text.clone(),
+            heard: Heard {
+                verdict: Verdict::parse(verdict).unwrap_or(Verdict::Fail),
+                met: met.clone(),
+                missed: missed.clone(),
+                misconceptions: misconceptions.clone(),
+                slips: slips.clone(),
+            },
+            unsure: unsure.clone(),
+            why: why.clone(),
+            marks: BTreeMap::new(),
+            own: None,
+        });
+    }
+
+    /// Back to the start of a stage: what was done in it is forgotten, what came before stays.
+    fn restart(&mut self, stage: Stage) {
+        let lesson = &self.lesson;
+        // A stage that the lesson no longer has gives way to the next one it has.
+        let start = self
+            .path
+            .iter()
+            .position(|screen| screen.base_stage(lesson) >= stage)
+            .unwrap_or(self.path.len() - 1);
+        let again: Vec<Screen> = self.path[start..].to_vec();
+        self.trail = self.path[..=start].to_vec();
+        self.cursor = start;
+        self.stage = self.path[start].base_stage(lesson);
+        for screen in &again {
+            match screen {
+                Screen::Worked => self.revealed = 0,
+                Screen::Faded(round) => {
+                    if let Some(item) = self.faded_item() {
+                        self.problems.remove(&(item, *round));
+                    }
+                }
+                Screen::Practice(item) => {
+                    self.problems.remove(&(item.clone(), 0));
+                }
+                Screen::Retest(item) => {
+                    self.problems.remove(&(item.clone(), 1));
+                }
+                Screen::Explain { item, .. } => {
+                    self.questions.remove(item);
+                }
+                Screen::Why | Screen::Step(_) | Screen::Reteach { .. } | Screen::Result => {}
+            }
+            self.skipped.remove(&screen.to_string());
+        }
+        self.diverged = false;
+        self.finished = None;
+        let screen = self.path[start].clone();
+        self.go_to(screen);
+        for screen in self.path[..start].to_vec() {
+            self.visit(&screen);
+        }
+    }
+
+    /// Makes a screen ready to be looked back at.
+    fn visit(&mut self, screen: &Screen) {
+        match screen {
+            Screen::Faded(round) => {
+                if let Some(item) = self.faded_item() {
+                    self.begin(&item, *round);
+                }
+            }
+            Screen::Practice(item) => self.begin(item, 0),
+            Screen::Retest(item) => self.begin(item, 1),
+            _ => {}
+        }
+    }
+
+    /// Id of the faded worked example.
+    pub(super) fn faded_item(&self) -> Option<String> {
+        let faded = self.lesson.worked.as_ref()?.faded.as_ref()?;
+        Some(faded.exercise.id.text.clone())
+    }
+
+    /// The exercise of a screen and its round.
+    pub(super) fn problem_key(&self, screen: &Screen) -> Option<(String, u32)> {
+        match screen {
+            Screen::Faded(round) => Some((self.faded_item()?, *round)),
+            Screen::Practice(item) => Some((item.clone(), 0)),
+            Screen::Retest(item) => Some((item.clone(), 1)),
+            Screen::Why
+            | Screen::Step(_)
+            | Screen::Worked
+            | Screen::Explain { .. }
+            | Screen::Reteach { .. }
+            | Screen::Result => None,
+        }
+    }
+
+    /// The exercise of a screen.
+    pub(super) fn problem(&self, screen: &Screen) -> Option<&Problem> {
+        self.problems.get(&self.problem_key(screen)?)
+    }
+
+    /// The screen after one, by what has happened on it.
+    pub(super) fn after(&self, at: &Screen) -> Option<Screen> {
+        let base = |at: &Screen| {
+            let index = self.path.iter().position(|screen| screen == at)?;
+            self.path.get(index + 1).cloned()
+        };
+        let (Screen::Explain { item, .. } | Screen::Reteach { item, .. }) = at else {
+            return base(at);
+        };
+        let first = Screen::Explain {
+            item: item.clone(),
+            attempt: 1,
+        };
+        let again = Screen::Explain {
+            item: item.clone(),
+            attempt: 2,
+        };
+        let (Some(question), Some(explain)) = (self.questions.get(item), self.lesson.explain(item))
+        else {
+            return base(&first);
+        };
+        let reteach = |index: usize| {
+            let name = question
+                .reteaches(&self.lesson, explain)
+                .get(index)?
+                .clone();
+            Some(Screen::Reteach {
+                item: item.clone(),
+                name,
+            })
+        };
+        match at {
+            Screen::Explain { attempt: 1, .. } if question.wants_second_try() => {
+                Some(reteach(0).unwrap_or(again))
+            }
+            Screen::Reteach { name, .. } => {
+                let names = question.reteaches(&self.lesson, explain);
+                let here = names.iter().position(|other| other == name);
+                Some(here.and_then(|here| reteach(here + 1)).unwrap_or(again))
+            }
+            _ => base(&first),
+        }
+    }
+
+    /// The first screen of the next stage on the path.
+    pub(super) fn after_stage(&self, at: &Screen) -> Option<Screen> {
+        let stage = at.base_stage(&self.lesson);
+        self.path
+            .iter()
+            .find(|screen| screen.base_stage(&self.lesson) > stage)
+            .cloned()
+    }
+}

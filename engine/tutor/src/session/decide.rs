@@ -1,0 +1,391 @@
+//! Messages become events: here answers are marked and explanations judged, once.
+
+use super::Session;
+use super::event::{Event, Msg, Quote};
+use super::problem::{Problem, WHOLE};
+use super::question::{Heard, Question};
+use super::screen::Screen;
+use crate::exercise;
+use crate::judge::{JUDGE_VERSION, Judgement};
+use crate::lesson::Explain;
+use crate::view::Saving;
+
+/// What a message leads to.
+#[derive(Default)]
+pub(super) struct Decided {
+    pub(super) events: Vec<Event>,
+    /// One line for the learner.
+    pub(super) note: Option<String>,
+    pub(super) saving: Option<Saving>,
+    pub(super) quit: bool,
+}
+
+impl Decided {
+    fn event(event: Event) -> Decided {
+        Decided {
+            events: vec![event],
+            ..Decided::default()
+        }
+    }
+
+    fn note(note: impl Into<String>) -> Decided {
+        Decided {
+            note: Some(note.into()),
+            ..Decided::default()
+        }
+    }
+}
+
+/// What stands open on a screen.
+pub(super) enum Open<'a> {
+    /// Nothing: the screen is there to be read.
+    Nothing,
+    /// A line of the worked example to reveal.
+    Line,
+    /// A step of an exercise.
+    Step(&'a Problem, &'a str),
+    /// An explanation to write.
+    Text(&'a Explain, &'a Question),
+    /// A checklist to mark.
+    Marks(&'a Explain, &'a Question),
+}
+
+impl Session {
+    /// Decides what a message leads to, and applies it.
+    pub(super) fn decide(&mut self, msg: Msg) -> Decided {
+        let mut decided = match msg {
+            Msg::Next => self.next(),
+            Msg::Back => self.back(),
+            Msg::Skip => self.skip(),
+            Msg::Hint => self.hint(),
+            Msg::Answer(text) => self.answer(text),
+            Msg::Draft(text) => self.draft(text),
+            Msg::Mark { point, said } => self.mark(point, said),
+            Msg::ChecklistDone => self.checklist_done(),
+            Msg::SaveFailed(why) => Decided {
+                saving: Some(Saving::Failed(why)),
+                note: self.view.note.take(),
+                ..Decided::default()
+            },
+            Msg::Saved => Decided {
+                saving: Some(Saving::Saved),
+                note: self.view.note.take(),
+                ..Decided::default()
+            },
+            Msg::Quit => Decided {
+                quit: true,
+                ..Decided::default()
+            },
+        };
+        for event in &decided.events {
+            self.apply(event);
+        }
+        if *self.here() == Screen::Result && self.finished.is_none() {
+            let (grade, words) = self.verdict();
+            let event = Event::Finished { grade, words };
+            self.apply(&event);
+            decided.events.push(event);
+        }
+        decided
+    }
+
+    /// What stands open on the screen shown.
+    pub(super) fn open(&self) -> Open<'_> {
+        match self.here() {
+            Screen::Why | Screen::Step(_) | Screen::Reteach { .. } | Screen::Result => {
+                Open::Nothing
+            }
+            Screen::Worked => {
+                let lines = self.lesson.worked.as_ref().map_or(0, |w| w.lines.len());
+                if self.revealed < lines {
+                    Open::Line
+                } else {
+                    Open::Nothing
+                }
+            }
+            screen @ (Screen::Faded(_) | Screen::Practice(_) | Screen::Retest(_)) => {
+                let problem = self.problem(screen);
+                problem
+                    .and_then(|problem| Some(Open::Step(problem, problem.current()?)))
+                    .unwrap_or(Open::Nothing)
+            }
+            Screen::Explain { item, attempt } => {
+                let (Some(explain), Some(question)) =
+                    (self.lesson.explain(item), self.questions.get(item))
+                else {
+                    return Open::Nothing;
+                };
+                let attempt = *attempt as usize;
+                match question.tries.get(attempt - 1) {
+                    Some(tried) if tried.is_open() => Open::Marks(explain, question),
+                    Some(_) => Open::Nothing,
+                    // The second try opens when the first is settled.
+                    None if question.tries.len() + 1 == attempt
+                        && question.last().is_none_or(|first| !first.is_open()) =>
+                    {
+                        Open::Text(explain, question)
+                    }
+                    None => Open::Nothing,
+                }
+            }
+        }
+    }
+
+    /// The learner looks back: what is open here need not be settled to go on.
+    pub(super) fn is_reviewing(&self) -> bool {
+        self.cursor + 1 < self.trail.len()
+    }
+
+    fn move_to(&self, screen: Option<Screen>) -> Decided {
+        match screen {
+            Some(screen) => Decided::event(Event::Next {
+                stage: screen.stage(&self.lesson),
+                screen: screen.to_string(),
+            }),
+            None => Decided::default(),
+        }
+    }
+
+    fn next(&self) -> Decided {
+        let on = || self.move_to(self.after(self.here()));
+        match self.open() {
+            Open::Nothing if *self.here() == Screen::Result => Decided {
+                quit: true,
+                ..Decided::default()
+            },
+            Open::Nothing => on(),
+            Open::Line => Decided::event(Event::Revealed {
+                lines: self.revealed + 1,
+            }),
+            Open::Step(problem, step) if problem.may_go_on(step) => self.go_on(step),
+            Open::Step(..) | Open::Text(..) | Open::Marks(..) if self.is_reviewing() => on(),
+            Open::Step(..) => {
+                Decided::note("Your answer first; a hint helps, and skipping is allowed.")
+            }
+            Open::Text(..) => {
+                Decided::note("Say it in your own words first; a sentence or two will do.")
+            }
+            Open::Marks(..) => Decided::note("Mark each point first: does your answer say it?"),
+        }
+    }
+
+    fn go_on(&self, step: &str) -> Decided {
+        match self.problem_key(self.here()) {
+            Some((item, round)) => Decided::event(Event::GoOn {
+                item,
+                round,
+                step: step.to_owned(),
+            }),
+            None => Decided::default(),
+        }
+    }
+
+    fn back(&self) -> Decided {
+        let Some(before) = self.cursor.checked_sub(1).map(|at| &self.trail[at]) else {
+            return Decided::note("This is the beginning.");
+        };
+        Decided::event(Event::Back {
+            stage: before.stage(&self.lesson),
+            screen: before.to_string(),
+        })
+    }
+
+    fn skip(&self) -> Decided {
+        let here = self.here();
+        let to = match here {
+            Screen::Result => return Decided::note("Nothing is left to skip."),
+            Screen::Why | Screen::Step(_) | Screen::Worked => self.after_stage(here),
+            Screen::Faded(_)
+            | Screen::Practice(_)
+            | Screen::Retest(_)
+            | Screen::Explain { .. }
+            | Screen::Reteach { .. } => self.after(here),
+        };
+        let mut decided = self.move_to(to);
+        let left_out = Event::Skip {
+            screen: here.to_string(),
+        };
+        decided.events.insert(0, left_out);
+        decided
+    }
+
+    fn hint(&self) -> Decided {
+        let Some(level) = self.next_hint() else {
+            return Decided::note("There is no hint here.");
+        };
+        match (self.open(), self.here()) {
+            (Open::Step(_, step), screen) => match self.problem_key(screen) {
+                Some((item, round)) => Decided::event(Event::Hint {
+                    item,
+                    round,
+                    step: step.to_owned(),
+                    level,
+                }),
+                None => Decided::default(),
+            },
+            (Open::Text(..), Screen::Explain { item, attempt }) => Decided::event(Event::Hint {
+                item: item.clone(),
+                round: *attempt,
+                step: WHOLE.to_owned(),
+                level,
+            }),
+            _ => Decided::default(),
+        }
+    }
+
+    /// The level of the next hint, where there is one.
+    pub(super) fn next_hint(&self) -> Option<u8> {
+        match (self.open(), self.here()) {
+            (Open::Step(problem, step), _) => {
+                let shown = problem.hints(step);
+                (shown < 3).then_some(shown + 1)
+            }
+            (Open::Text(explain, question), Screen::Explain { attempt, .. }) => {
+                let shown = question.hints[(*attempt as usize).clamp(1, 2) - 1];
+                let nudges = question.nudges(explain, *attempt).len() as u8;
+                if shown < nudges {
+                    Some(shown + 1)
+                } else {
+                    (shown < 3).then_some(3)
+                }
+            }
+            _ => None,
+        }
+    }
+
+    fn answer(&self, text: String) -> Decided {
+        let empty = text.trim().is_empty();
+        match (self.open(), self.here()) {
+            (Open::Step(problem, step), screen) if !empty => {
+                self.answer_step(screen, problem, step, text)
+            }
+            (Open::Text(explain, _), Screen::Explain { attempt, .. }) if !empty => {
+                Decided::event(explained(explain, *attempt, text))
+            }
+            (Open::Step(..) | Open::Text(..), _) => {
+                Decided::note("Nothing was typed, so nothing counts.")
+            }
+            (Open::Marks(..), _) => {
+                Decided::note("Mark each point first: does your answer say it?")
+            }
+            (Open::Nothing | Open::Line, _) => Decided::note("Nothing is asked here; just go on."),
+        }
+    }
+
+    fn answer_step(&self, screen: &Screen, problem: &Problem, step: &str, text: String) -> Decided {
+        let Some((item, round)) = self.problem_key(screen) else {
+            return Decided::default();
+        };
+        let (Some(exercise), Ok(draw)) = (self.lesson.exercise(&item), &problem.draw) else {
+            return Decided::default();
+        };
+        let named = (step != WHOLE).then_some(step);
+        let earlier = problem.earlier(step);
+        let marking = exercise::mark(&self.lesson, exercise, draw, named, &text, &earlier);
+        Decided::event(Event::Attempt {
+            item,
+            round,
+            step: step.to_owned(),
+            seed: problem.seed,
+            given: draw.given.clone(),
+            text,
+            result: marking.result().to_owned(),
+            mistake: marking.mistake().map(str::to_owned),
+            says: marking.says().to_owned(),
+        })
+    }
+
+    fn draft(&self, text: String) -> Decided {
+        match (self.open(), self.here()) {
+            (Open::Text(_, question), Screen::Explain { item, .. }) if question.draft != text => {
+                Decided::event(Event::Draft {
+                    item: item.clone(),
+                    text,
+                })
+            }
+            _ => Decided::default(),
+        }
+    }
+
+    fn mark(&self, point: usize, said: bool) -> Decided {
+        let (Open::Marks(explain, question), Some(tried)) = (self.open(), self.here_try()) else {
+            return Decided::default();
+        };
+        match tried.points(&explain.rubric).into_iter().nth(point) {
+            Some((point, _)) if tried.marks.get(&point) != Some(&said) => {
+                Decided::event(Event::Marked {
+                    item: explain.rubric.item.clone(),
+                    attempt: question.tries.len() as u32,
+                    point,
+                    said,
+                })
+            }
+            _ => Decided::default(),
+        }
+    }
+
+    fn checklist_done(&self) -> Decided {
+        let (Open::Marks(explain, question), Some(tried)) = (self.open(), self.here_try()) else {
+            return Decided::default();
+        };
+        let points = tried.points(&explain.rubric);
+        if points.iter().any(|(id, _)| !tried.marks.contains_key(id)) {
+            return Decided::note("Mark each point first: does your answer say it?");
+        }
+        let heard = tried.settle(&explain.rubric);
+        Decided::event(Event::SelfMarked {
+            item: explain.rubric.item.clone(),
+            attempt: question.tries.len() as u32,
+            verdict: heard.verdict.as_str().to_owned(),
+            met: heard.met,
+            missed: heard.missed,
+            misconceptions: heard.misconceptions,
+            slips: heard.slips,
+        })
+    }
+
+    /// The try that the screen shown is about.
+    pub(super) fn here_try(&self) -> Option<&super::question::Try> {
+        match self.here() {
+            Screen::Explain { item, attempt } => {
+                let index = (*attempt as usize).checked_sub(1)?;
+                self.questions.get(item)?.tries.get(index)
+            }
+            _ => None,
+        }
+    }
+}
+
+fn explained(explain: &Explain, attempt: u32, text: String) -> Event {
+    let Judgement {
+        verdict,
+        met,
+        misconceptions,
+        unsure,
+        why,
+    } = explain.judge.judge(&text);
+    let heard = Heard::new(&explain.rubric, verdict, met, misconceptions);
+    let missed = heard.missed.into_iter();
+    let unsure_too = |id: &String| unsure.contains(id);
+    Event::Explained {
+        item: explain.rubric.item.clone(),
+        attempt,
+        verdict: verdict.as_str().to_owned(),
+        met: heard.met,
+        missed: missed.filter(|id| !unsure_too(id)).collect(),
+        misconceptions: heard.misconceptions,
+        slips: heard.slips,
+        unsure,
+        judge: JUDGE_VERSION.to_owned(),
+        why: why
+            .into_iter()
+            .map(|why| Quote {
+                id: why.id,
+                quote: why.quote,
+                start: why.start,
+                end: why.end,
+            })
+            .collect(),
+        text,
+    }
+}

@@ -1,0 +1,291 @@
+//! What comes in, what goes out, and what is kept of a session.
+
+use crate::view::Stage;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// What the learner or the machine tells the session.
+#[derive(Serialize, Deserialize, Clone, Debug, PartialEq)]
+pub enum Msg {
+    /// Go on: next line, next question, next screen.
+    Next,
+    /// Look at the screen before; nothing is lost.
+    Back,
+    /// Leave this out.
+    Skip,
+    /// One hint more.
+    Hint,
+    /// A number, an option's letter or number, an order "2 1 3", or an explanation.
+    Answer(String),
+    /// What stands in the text field, not handed in.
+    Draft(String),
+    /// The learner says whether his answer makes a point of the checklist.
+    Mark {
+        /// Position of the point, from 0.
+        point: usize,
+        /// Whether the answer says it.
+        said: bool,
+    },
+    /// The checklist is marked as it should be.
+    ChecklistDone,
+    /// The log could not be written, and why.
+    SaveFailed(String),
+    /// Everything handed out by [`Effect::Save`] so far is on the disk.
+    Saved,
+    /// Leave; resuming comes back to this very screen.
+    Quit,
+}
+
+/// What the app is asked to do.
+#[must_use]
+#[derive(Clone, Debug, PartialEq)]
+pub enum Effect {
+    /// Append to the log, and answer with [`Msg::Saved`] or [`Msg::SaveFailed`].
+    Save(Event),
+    /// A picture is on the screen: have it drawn.
+    Draw {
+        /// Id of the lesson.
+        lesson: String,
+        /// Id of the fingerprint.
+        picture: String,
+    },
+    /// Leave.
+    Quit,
+}
+
+/// The learner's words that decided one criterion.
+#[derive(Serialize, Deserialize, Clone, Debug, PartialEq, Eq)]
+#[serde(deny_unknown_fields)]
+pub struct Quote {
+    /// Id of the expectation or misconception.
+    pub id: String,
+    /// The words.
+    pub quote: String,
+    /// Their first byte in the answer.
+    pub start: usize,
+    /// One past their last byte.
+    pub end: usize,
+}
+
+/// A slip heard in an earlier lesson.
+#[derive(Serialize, Deserialize, Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[serde(deny_unknown_fields)]
+pub struct NotedSlip {
+    /// Id of the misconception, such as `fresnel-falls-at-edge`.
+    pub id: String,
+    /// Id of the lesson in which it was heard.
+    pub lesson: String,
+}
+
+/// How a finished lesson ended.
+#[derive(Serialize, Deserialize, Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[serde(rename_all = "kebab-case")]
+pub enum Grade {
+    /// Passed, as the judge heard it.
+    Pass,
+    /// Passed, where the learner marked at least one answer himself.
+    SelfMarked,
+    /// Not yet.
+    NotYet,
+}
+
+/// What happened, with its outcome: applying events needs no judge.
+///
+/// Item ids are those of the lesson file; `step` names a line of an exercise.
+#[derive(Serialize, Deserialize, Clone, Debug, PartialEq)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Event {
+    /// On to a screen.
+    Next {
+        /// The stage it belongs to.
+        stage: Stage,
+        /// The screen's key.
+        screen: String,
+    },
+    /// Back to a screen seen before.
+    Back {
+        /// The stage it belongs to.
+        stage: Stage,
+        /// The screen's key.
+        screen: String,
+    },
+    /// One more line of the worked example.
+    Revealed {
+        /// How many lines are shown now.
+        lines: usize,
+    },
+    /// A step of an exercise is left as it is.
+    GoOn {
+        /// Id of the exercise.
+        item: String,
+        /// 0 the first time, 1 in the re-test.
+        round: u32,
+        /// The step left.
+        step: String,
+    },
+    /// A screen was left out; another event says where it went on.
+    Skip {
+        /// The screen's key.
+        screen: String,
+    },
+    /// A hint was shown.
+    Hint {
+        /// Id of the exercise or question.
+        item: String,
+        /// 0 the first time, 1 in the re-test; the try, for a question.
+        round: u32,
+        /// The step it is for; empty for a question.
+        step: String,
+        /// From 1 to 3.
+        level: u8,
+    },
+    /// Text not yet handed in.
+    Draft {
+        /// Id of the question.
+        item: String,
+        /// What stands in the field.
+        text: String,
+    },
+    /// An answer to an exercise.
+    Attempt {
+        /// Id of the exercise.
+        item: String,
+        /// 0 the first time, 1 in the re-test, the round of a faded example.
+        round: u32,
+        /// The step answered.
+        step: String,
+        /// The seed that the numbers were drawn from.
+        #[serde(with = "crate::record::seed")]
+        seed: u64,
+        /// The numbers drawn.
+        #[serde(default)]
+        given: BTreeMap<String, f64>,
+        /// The raw text typed.
+        text: String,
+        /// `correct`, `carried`, `precision`, `mistake`, `wrong` or `invalid`.
+        result: String,
+        /// The known mistake, where it is one.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        mistake: Option<String>,
+        /// What the learner was told.
+        says: String,
+    },
+    /// An explanation, judged.
+    Explained {
+        /// Id of the question.
+        item: String,
+        /// 1, or 2 for the second try.
+        #[serde(rename = "try")]
+        attempt: u32,
+        /// The raw text typed.
+        text: String,
+        /// `pass`, `partial`, `fail` or `unsure`.
+        verdict: String,
+        /// Expectations met.
+        #[serde(default)]
+        met: Vec<String>,
+        /// Required expectations not met.
+        #[serde(default)]
+        missed: Vec<String>,
+        /// Misconceptions heard, slips included.
+        #[serde(default)]
+        misconceptions: Vec<String>,
+        /// Those of them that block nothing.
+        #[serde(default)]
+        slips: Vec<String>,
+        /// Criteria that the judge could not settle.
+        #[serde(default)]
+        unsure: Vec<String>,
+        /// Which judge decided.
+        judge: String,
+        /// The words behind each criterion.
+        #[serde(default)]
+        why: Vec<Quote>,
+    },
+    /// The learner marked one point of the checklist.
+    Marked {
+        /// Id of the question.
+        item: String,
+        /// The try marked.
+        #[serde(rename = "try")]
+        attempt: u32,
+        /// Id of the criterion.
+        point: String,
+        /// Whether the answer makes the point.
+        said: bool,
+    },
+    /// The learner's own marking stands in for the judge's.
+    SelfMarked {
+        /// Id of the question.
+        item: String,
+        /// The try marked.
+        #[serde(rename = "try")]
+        attempt: u32,
+        /// The verdict that follows: `pass`, `partial` or `fail`.
+        verdict: String,
+        /// Expectations met, by judge or learner.
+        #[serde(default)]
+        met: Vec<String>,
+        /// Required expectations not met.
+        #[serde(default)]
+        missed: Vec<String>,
+        /// Misconceptions that stand.
+        #[serde(default)]
+        misconceptions: Vec<String>,
+        /// Those of them that block nothing.
+        #[serde(default)]
+        slips: Vec<String>,
+    },
+    /// The lesson reached its result.
+    Finished {
+        /// Passed or not.
+        grade: Grade,
+        /// The result in a teacher's words.
+        words: String,
+    },
+    /// The lesson file or the program changed since; the stage starts again.
+    LessonChanged {
+        /// Hash of the lesson file from here on.
+        hash: String,
+        /// The stage that starts again.
+        stage: Stage,
+    },
+}
+
+impl Event {
+    /// Every value of `kind` that this version writes.
+    pub const KINDS: [&str; 13] = [
+        "next",
+        "back",
+        "revealed",
+        "go-on",
+        "skip",
+        "hint",
+        "draft",
+        "attempt",
+        "explained",
+        "marked",
+        "self-marked",
+        "finished",
+        "lesson-changed",
+    ];
+
+    /// The item that the event is about, where it is about one.
+    pub fn item(&self) -> Option<&str> {
+        match self {
+            Event::GoOn { item, .. }
+            | Event::Hint { item, .. }
+            | Event::Draft { item, .. }
+            | Event::Attempt { item, .. }
+            | Event::Explained { item, .. }
+            | Event::Marked { item, .. }
+            | Event::SelfMarked { item, .. } => Some(item),
+            Event::Next { .. }
+            | Event::Back { .. }
+            | Event::Revealed { .. }
+            | Event::Skip { .. }
+            | Event::Finished { .. }
+            | Event::LessonChanged { .. } => None,
+        }
+    }
+}

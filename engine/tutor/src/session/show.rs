@@ -1,0 +1,280 @@
+//! The screen as data, from the state.
+
+use super::Session;
+use super::decide::Open;
+use super::event::Effect;
+use super::screen::Screen;
+use super::{show_problem, show_question};
+use crate::lesson::Lesson;
+use crate::prose::{Block, Inline, Tone};
+use crate::view::{Can, Input, Point, Progress, Saving, Stage, View};
+use formula::Values;
+
+/// A view before the first refresh.
+pub(super) fn blank(lesson: &Lesson) -> View {
+    View {
+        lesson_title: lesson.title.text.clone(),
+        stage: Stage::Why,
+        stages: Vec::new(),
+        place: (1, 1),
+        heading: String::new(),
+        key: String::new(),
+        blocks: Vec::new(),
+        input: Input::None,
+        can: Can::default(),
+        next_label: String::new(),
+        skip_label: String::new(),
+        note: None,
+        saving: Saving::Nothing,
+    }
+}
+
+pub(super) fn text(words: impl Into<String>) -> Inline {
+    Inline::Text(words.into())
+}
+
+pub(super) fn paragraph(words: impl Into<String>) -> Block {
+    Block::Paragraph(vec![text(words)])
+}
+
+pub(super) fn verdict(tone: Tone, title: &str, text: Vec<Inline>) -> Block {
+    Block::Verdict {
+        tone,
+        title: title.to_owned(),
+        text,
+    }
+}
+
+impl Session {
+    /// Makes the view anew; what is saved and noted stays.
+    pub(super) fn refresh(&mut self) {
+        let screen = self.here().clone();
+        let (heading, blocks) = self.page(&screen);
+        let can = self.can();
+        self.view = View {
+            lesson_title: self.lesson.title.text.clone(),
+            stage: screen.stage(&self.lesson),
+            stages: self.stages(&screen),
+            place: self.place(&screen),
+            heading,
+            key: screen.to_string(),
+            blocks,
+            input: self.input(),
+            can,
+            next_label: self.next_label(&screen, can),
+            skip_label: skip_label(&screen).to_owned(),
+            note: self.view.note.take(),
+            saving: std::mem::take(&mut self.view.saving),
+        };
+    }
+
+    /// Pictures on the screen, to be drawn.
+    pub(super) fn pictures(&self) -> Vec<Effect> {
+        let blocks = self.view.blocks.iter();
+        blocks
+            .filter_map(|block| match block {
+                Block::Picture { lesson, id, .. } => Some(Effect::Draw {
+                    lesson: lesson.clone(),
+                    picture: id.clone(),
+                }),
+                _ => None,
+            })
+            .collect()
+    }
+
+    /// Heading and blocks of a screen as things stand.
+    pub(super) fn page(&self, screen: &Screen) -> (String, Vec<Block>) {
+        let lesson = &self.lesson;
+        let none = Values::new();
+        match screen {
+            Screen::Why => {
+                let mut blocks = self.lead_ins();
+                blocks.extend(lesson.prose(&lesson.why, &none));
+                ("Why this matters".to_owned(), blocks)
+            }
+            Screen::Step(index) => match lesson.steps.get(*index) {
+                Some(step) => {
+                    let mut blocks = lesson.prose(&step.text, &none);
+                    blocks.extend(lesson.figures(&step.figures));
+                    if index + 1 == lesson.steps.len() {
+                        blocks.extend(self.model());
+                    }
+                    (step.title.text.clone(), blocks)
+                }
+                None => Default::default(),
+            },
+            Screen::Worked => self.worked(),
+            Screen::Faded(_) | Screen::Practice(_) | Screen::Retest(_) => {
+                show_problem::page(self, screen)
+            }
+            Screen::Explain { item, attempt } => show_question::page(self, item, *attempt),
+            Screen::Reteach { name, .. } => match lesson.reteach(name) {
+                Some(reteach) => {
+                    let mut blocks = vec![paragraph(format!(
+                        "Something was missing, so here is another angle on it: {}. Then the \
+                         same question again.",
+                        reteach.name.text
+                    ))];
+                    blocks.extend(lesson.prose(&reteach.text, &none));
+                    blocks.extend(lesson.figures(&reteach.figures));
+                    (reteach.title.text.clone(), blocks)
+                }
+                None => Default::default(),
+            },
+            Screen::Result => ("How it went".to_owned(), self.result_page()),
+        }
+    }
+
+    /// What an earlier lesson noted and this one takes up.
+    fn lead_ins(&self) -> Vec<Block> {
+        let noted = |id: &str| self.start.slips.iter().any(|slip| slip.id == id);
+        let entries = self.lesson.takes_up.iter();
+        entries
+            .filter(|entry| noted(&entry.slip))
+            .map(|entry| {
+                let says = self.lesson.inline(&entry.says, &Values::new());
+                verdict(Tone::Info, "Noted last time", says)
+            })
+            .collect()
+    }
+
+    /// The lesson in one sentence.
+    pub(super) fn model(&self) -> Vec<Block> {
+        let model = self.lesson.inline(&self.lesson.model, &Values::new());
+        if model.is_empty() {
+            return Vec::new();
+        }
+        vec![
+            Block::Heading("In one sentence".to_owned()),
+            Block::Quote(model),
+        ]
+    }
+
+    fn worked(&self) -> (String, Vec<Block>) {
+        let Some(worked) = &self.lesson.worked else {
+            return Default::default();
+        };
+        let lines = worked.lines.len();
+        let mut blocks = self
+            .lesson
+            .prose(&worked.intro, &self.lesson.worked_values(0));
+        blocks.extend((0..lines.min(self.revealed)).filter_map(|at| self.lesson.worked_line(at)));
+        if self.revealed >= lines
+            && let Some(after) = &worked.after
+        {
+            blocks.extend(self.lesson.prose(after, &self.lesson.worked_values(lines)));
+        }
+        (worked.title.text.clone(), blocks)
+    }
+
+    fn stages(&self, here: &Screen) -> Vec<(Stage, Progress)> {
+        let stage = here.stage(&self.lesson);
+        let known = |other: &Stage| {
+            *other == stage || self.path.iter().any(|s| s.stage(&self.lesson) == *other)
+        };
+        // A re-teach stands where its question stands.
+        let order = |other: Stage| match other {
+            Stage::Reteach => here.base_stage(&self.lesson),
+            other => other,
+        };
+        let progress = |other: Stage| {
+            if other == stage {
+                Progress::Here
+            } else if order(other) < order(stage) || other == order(stage) {
+                Progress::Done
+            } else {
+                Progress::Ahead
+            }
+        };
+        let mut stages: Vec<Stage> = Stage::ALL.into_iter().filter(known).collect();
+        stages.sort_by_key(|other| (order(*other), *other != order(*other)));
+        stages.into_iter().map(|s| (s, progress(s))).collect()
+    }
+
+    fn place(&self, here: &Screen) -> (usize, usize) {
+        let (here, all): (Screen, Vec<&Screen>) = match here {
+            Screen::Explain { item, .. } | Screen::Reteach { item, .. } => (
+                Screen::Explain {
+                    item: item.clone(),
+                    attempt: 1,
+                },
+                self.path.iter().collect(),
+            ),
+            other => (other.clone(), self.path.iter().collect()),
+        };
+        let stage = here.base_stage(&self.lesson);
+        let same: Vec<&&Screen> = all
+            .iter()
+            .filter(|screen| screen.base_stage(&self.lesson) == stage)
+            .collect();
+        let at = same.iter().position(|screen| ***screen == here);
+        (at.unwrap_or(0) + 1, same.len().max(1))
+    }
+
+    fn input(&self) -> Input {
+        match self.open() {
+            Open::Nothing | Open::Line => Input::None,
+            Open::Step(problem, step) => show_problem::input(self, problem, step),
+            Open::Text(_, question) => Input::Text {
+                label: "In your own words".to_owned(),
+                draft: question.draft.clone(),
+            },
+            Open::Marks(explain, _) => Input::Checklist {
+                points: self.here_try().map_or_else(Vec::new, |tried| {
+                    tried
+                        .points(&explain.rubric)
+                        .into_iter()
+                        .map(|(id, text)| Point {
+                            said: tried.marks.get(&id).copied(),
+                            text,
+                        })
+                        .collect()
+                }),
+            },
+        }
+    }
+
+    fn can(&self) -> Can {
+        let next = match self.open() {
+            Open::Nothing | Open::Line => true,
+            Open::Step(problem, step) => problem.may_go_on(step) || self.is_reviewing(),
+            Open::Text(..) | Open::Marks(..) => self.is_reviewing(),
+        };
+        Can {
+            next,
+            back: self.cursor > 0,
+            skip: *self.here() != Screen::Result,
+            hint: self.next_hint(),
+        }
+    }
+
+    fn next_label(&self, screen: &Screen, can: Can) -> String {
+        let label = match self.open() {
+            _ if !can.next => "",
+            Open::Line => "next line",
+            Open::Step(problem, step) if problem.may_go_on(step) => "leave it and go on",
+            Open::Nothing if *screen == Screen::Result => "finish",
+            Open::Nothing => match self.after(screen) {
+                Some(Screen::Reteach { .. }) => "another angle",
+                Some(Screen::Explain { attempt: 2, .. }) => "try again",
+                Some(Screen::Result) => "to the result",
+                _ => "on",
+            },
+            Open::Step(..) | Open::Text(..) | Open::Marks(..) => "on",
+        };
+        label.to_owned()
+    }
+}
+
+fn skip_label(screen: &Screen) -> &'static str {
+    match screen {
+        Screen::Why => "skip to the walkthrough",
+        Screen::Step(_) => "skip the walkthrough",
+        Screen::Worked => "skip the worked example",
+        Screen::Faded(_) => "skip this round",
+        Screen::Practice(_) | Screen::Retest(_) => "skip this exercise",
+        Screen::Explain { .. } => "skip this question",
+        Screen::Reteach { .. } => "skip this angle",
+        Screen::Result => "",
+    }
+}
