@@ -1,7 +1,6 @@
 //! A formula with its definitions opened: every distinct operation once, operands before
 //! the operations that need them. Nothing that walks it recurses.
 
-use crate::brdf_standin as brdf;
 use crate::builtin::Builtin;
 use crate::error::Span;
 use crate::expr::CompareOp;

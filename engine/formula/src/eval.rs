@@ -1,6 +1,5 @@
 //! Values, in f64 or with every operation in f32, and the errors of domains.
 
-use crate::brdf_standin as brdf;
 use crate::builtin::Builtin;
 use crate::dag::{Dag, Id, Op};
 use crate::error::{Error, excerpt};

@@ -116,10 +116,12 @@ impl CompareOp {
 pub(crate) mod binding {
     pub const COMPARE: u8 = 1;
     pub const SUM: u8 = 2;
-    pub const PRODUCT: u8 = 3;
-    pub const NEG: u8 = 4;
-    pub const POWER: u8 = 5;
-    pub const ATOM: u8 = 6;
+    /// `N·H` looks like a product and is none: tighter than a sum, looser than a product.
+    pub const DOT: u8 = 3;
+    pub const PRODUCT: u8 = 4;
+    pub const NEG: u8 = 5;
+    pub const POWER: u8 = 6;
+    pub const ATOM: u8 = 7;
 }
 
 impl Node {

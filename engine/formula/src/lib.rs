@@ -22,13 +22,13 @@
 //! This crate must never touch files, the environment, the clock, threads or randomness.
 
 mod algebra;
-mod brdf_standin;
 mod builtin;
 mod dag;
 mod digits;
 mod error;
 mod eval;
 mod expr;
+mod latex;
 mod lex;
 mod library;
 mod lower;

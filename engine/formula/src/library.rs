@@ -1,6 +1,5 @@
 //! The formulas of one lesson on top of the core's terms, and what can be wrong with them.
 
-use crate::brdf_standin as brdf;
 use crate::builtin::Builtin;
 use crate::error::{Error, Span, excerpt, nearest};
 use crate::expr::{Expr, Node};

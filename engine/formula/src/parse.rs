@@ -2,7 +2,6 @@
 //! and the height of every tree it returns are limited, so that nothing that walks a tree
 //! later can exhaust the stack.
 
-use crate::brdf_standin as brdf;
 use crate::builtin::{Builtin, builtin_names};
 use crate::error::{Error, Span, excerpt};
 use crate::expr::{Arg, BinaryOp, Expr, Node, binding};

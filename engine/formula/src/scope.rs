@@ -4,7 +4,6 @@
 //! enclosing formula's own parameters, then among the givens. `alpha` may be satisfied by
 //! `roughness` (alpha = roughness²) and the other way round; a parameter's own name wins.
 
-use crate::brdf_standin as brdf;
 use crate::builtin::{Builtin, builtin_names, check_args};
 use crate::error::{Error, Span, excerpt};
 use crate::expr::{Arg, Expr};

@@ -18,10 +18,18 @@ pub fn unicode_name(name: &str) -> String {
     if !known.is_empty() {
         return known.to_string();
     }
+    // `alpha1` is α₁, but `a2` may well be the square of a: Latin names stay as typed.
     let (stem, index) = split_index(name);
-    let stem = greek(stem).map_or_else(|| stem.to_string(), str::to_string);
-    let index: String = index.chars().map(subscript).collect();
-    format!("{stem}{index}")
+    if let Some(letter) = greek(stem) {
+        let index: String = index.chars().map(subscript).collect();
+        return format!("{letter}{index}");
+    }
+    match name.split_once('_') {
+        Some((first, rest)) if greek(first).is_some() => {
+            format!("{}_{rest}", greek(first).unwrap_or(first))
+        }
+        _ => name.to_string(),
+    }
 }
 
 /// The name in LaTeX.
