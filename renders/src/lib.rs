@@ -1,1 +1,273 @@
-//! Skeleton.
+//! A scene becomes an image: one bug as a picture, on a graphics processor or on the CPU, and
+//! the plots of a lesson's tables.
+//!
+//! A [`Fingerprint`] is two formulas, the right one and the wrong one, and a scene that shows
+//! where they differ: a sphere under a distant light, seen without perspective. [`render`]
+//! draws correct, buggy and their ratio side by side with the profile along the equator;
+//! [`raw`] and [`profile`] give the numbers behind the picture.
+//!
+//! Both formulas are [`formula::Expr`]; nothing here knows what a lesson is. Nothing here
+//! touches a file, and no graphics driver is loaded before a picture asks for one.
+
+mod axis;
+mod backend;
+mod canvas;
+mod chart;
+mod colour;
+mod contour;
+mod cpu;
+mod error;
+mod gpu;
+mod picture;
+mod profile;
+mod sample;
+mod scene;
+mod shade;
+mod text;
+mod visibility;
+
+pub use canvas::png;
+pub use chart::{PlotSpec, plot_png, plot_svg};
+pub use error::Error;
+pub use gpu::gpu_adapter;
+pub use profile::{ProfilePoint, profile};
+pub use sample::RADIUS_SHARE;
+pub use scene::Scene;
+pub use visibility::Visibility;
+
+use crate::cpu::Cpu;
+use crate::gpu::{Gpu, Wanted};
+use crate::sample::Panel;
+use crate::shade::{Engine, Shaded, shade};
+use formula::{Expr, Library};
+use std::sync::atomic::AtomicBool;
+use std::time::Instant;
+
+/// Largest panel in pixels a side.
+pub const MAX_SIZE: u32 = 4096;
+const MIN_SIZE: u32 = 16;
+
+/// One bug as a picture: what is right and what is wrong, on a sphere.
+#[derive(Clone, Debug)]
+pub struct Fingerprint<'a> {
+    /// The lesson it belongs to.
+    pub lesson: &'a str,
+    /// Its name within the lesson.
+    pub id: &'a str,
+    /// Title of the picture.
+    pub title: String,
+    /// One sentence below the title: what to look for.
+    pub caption: String,
+    /// The definitions that both formulas may call.
+    pub library: &'a Library,
+    /// Radiance of the correct shader, with its factor `n_dot_l`.
+    pub right: &'a Expr,
+    /// Radiance of the buggy shader.
+    pub wrong: &'a Expr,
+    /// The sphere's material and light.
+    pub scene: Scene,
+}
+
+/// What draws.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Backend {
+    /// A graphics processor where there is a real one, else the CPU, which is faster than a
+    /// software driver.
+    #[default]
+    Auto,
+    /// Any adapter, software drivers included; [`Error::NoAdapter`] where there is none.
+    Gpu,
+    /// The CPU, in f64.
+    Cpu,
+}
+
+/// How to draw.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Options {
+    /// Width and height of one panel in pixels, 16 to [`MAX_SIZE`].
+    pub size: u32,
+    /// What draws.
+    pub backend: Backend,
+    /// Leave out what the picture does not need. Without it the picture is the same and slower.
+    pub skip: bool,
+    /// Only the three panels, without any text: for a terminal, where a character is too coarse.
+    pub compact: bool,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            size: 368,
+            backend: Backend::Auto,
+            skip: true,
+            compact: false,
+        }
+    }
+}
+
+/// A finished picture.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// Width in pixels.
+    pub width: u32,
+    /// Height in pixels.
+    pub height: u32,
+    /// Red, green, blue, alpha of every pixel, sRGB, rows from the top.
+    pub rgba: Vec<u8>,
+    /// How it was made and whether the bug shows.
+    pub report: Report,
+}
+
+impl Picture {
+    /// The picture as a PNG file.
+    pub fn png(&self) -> Vec<u8> {
+        canvas::png(self.width, self.height, &self.rgba)
+    }
+}
+
+/// How a picture was made, and what it shows in numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// `gpu` or `cpu`.
+    pub backend: &'static str,
+    /// The adapter's name where a graphics processor drew.
+    pub adapter: Option<String>,
+    /// Pixels of a panel whose formulas were evaluated.
+    pub pixels_shaded: u64,
+    /// Pixels of a panel that were not.
+    pub pixels_skipped: u64,
+    /// Calls of the formulas that were evaluated.
+    pub terms_evaluated: Vec<String>,
+    /// Calls that were not evaluated point by point, and why.
+    pub terms_skipped: Vec<String>,
+    /// Factor by which both panels' values were multiplied before display.
+    pub exposure: f64,
+    /// Wall-clock time from formulas to pixels, in milliseconds.
+    pub ms: f64,
+    /// Whether the bug shows.
+    pub visibility: Visibility,
+}
+
+/// The linear values of both panels, rows from the top; 0 where nothing is lit or seen.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Raw {
+    /// Width and height in pixels.
+    pub size: u32,
+    /// Values of the right formula; a pixel on an edge is averaged over its area.
+    pub right: Vec<f64>,
+    /// Values of the wrong formula.
+    pub wrong: Vec<f64>,
+}
+
+/// Draws a fingerprint.
+///
+/// # Errors
+/// A formula that does not fit the scene, no adapter (only with [`Backend::Gpu`]), a size out of
+/// range, or [`Error::Cancelled`] soon after `cancel` becomes true.
+pub fn render(
+    fingerprint: &Fingerprint<'_>,
+    options: &Options,
+    cancel: &AtomicBool,
+) -> Result<Picture, Error> {
+    let start = Instant::now();
+    let drawn = draw_panels(fingerprint, options, cancel)?;
+    let profile = profile::Profile::of(fingerprint)?;
+    let exposure = profile.exposure();
+    let visibility = visibility::measure(fingerprint, &drawn.shaded, exposure)?;
+    let canvas = if options.compact {
+        picture::compact(&drawn.panel, &drawn.shaded, exposure)
+    } else {
+        picture::full(
+            fingerprint,
+            &drawn.panel,
+            &drawn.shaded,
+            &profile,
+            exposure,
+            &visibility,
+        )?
+    };
+    let (evaluated, skipped) = drawn.terms;
+    let pixels = u64::from(options.size).pow(2);
+    Ok(Picture {
+        width: canvas.width() as u32,
+        height: canvas.height() as u32,
+        rgba: canvas.rgba(),
+        report: Report {
+            backend: drawn.backend,
+            adapter: drawn.adapter,
+            pixels_shaded: drawn.shaded.pixels,
+            pixels_skipped: pixels - drawn.shaded.pixels,
+            terms_evaluated: evaluated,
+            terms_skipped: skipped,
+            exposure,
+            ms: start.elapsed().as_secs_f64() * 1e3,
+            visibility,
+        },
+    })
+}
+
+/// The linear values of both panels, without a picture.
+///
+/// # Errors
+/// As [`render`].
+pub fn raw(fingerprint: &Fingerprint<'_>, options: &Options) -> Result<Raw, Error> {
+    let drawn = draw_panels(fingerprint, options, &AtomicBool::new(false))?;
+    Ok(Raw {
+        size: options.size,
+        right: drawn.shaded.right,
+        wrong: drawn.shaded.wrong,
+    })
+}
+
+/// Both panels, and how they came about.
+struct Drawn {
+    panel: Panel,
+    shaded: Shaded,
+    backend: &'static str,
+    adapter: Option<String>,
+    terms: (Vec<String>, Vec<String>),
+}
+
+fn draw_panels(
+    fingerprint: &Fingerprint<'_>,
+    options: &Options,
+    cancel: &AtomicBool,
+) -> Result<Drawn, Error> {
+    if !(MIN_SIZE..=MAX_SIZE).contains(&options.size) {
+        return Err(Error::Size(options.size));
+    }
+    let Fingerprint {
+        library,
+        right,
+        wrong,
+        scene,
+        ..
+    } = fingerprint;
+    let cpu = || Cpu::new(library, right, wrong, scene);
+    let gpu = |wanted| Gpu::new(wanted, library, right, wrong, scene);
+    let engine = match options.backend {
+        Backend::Cpu => Engine::Cpu(cpu()?),
+        Backend::Gpu => Engine::Gpu(Box::new(gpu(Wanted::Any)?)),
+        Backend::Auto => match gpu(Wanted::Hardware) {
+            Ok(gpu) => Engine::Gpu(Box::new(gpu)),
+            Err(_) => Engine::Cpu(cpu()?),
+        },
+    };
+    let panel = Panel {
+        size: options.size as usize,
+        geometry: scene.geometry(),
+        everywhere: !options.skip,
+    };
+    let shaded = shade(&panel, &engine, options.skip, cancel)?;
+    let (backend, adapter) = match &engine {
+        Engine::Cpu(_) => ("cpu", None),
+        Engine::Gpu(gpu) => ("gpu", Some(gpu.adapter.clone())),
+    };
+    Ok(Drawn {
+        panel,
+        shaded,
+        backend,
+        adapter,
+        terms: cpu::terms(fingerprint),
+    })
+}

@@ -1,0 +1,241 @@
+//! Where values stand on an axis, and which of them get a tick.
+
+/// One axis of a chart: a range that is not empty, linear or logarithmic.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Axis {
+    low: f64,
+    high: f64,
+    log: bool,
+}
+
+/// A grid line, and what is written beside it (nothing at a minor one).
+pub(crate) struct Tick {
+    pub at: f64,
+    pub label: String,
+}
+
+impl Tick {
+    /// Width of the grid line in pixels, for labels of size `em`.
+    pub fn weight(&self, em: f64) -> f64 {
+        if self.label.is_empty() {
+            0.05 * em
+        } else {
+            0.09 * em
+        }
+    }
+}
+
+impl Axis {
+    /// An axis that holds every drawable value, or `range`; `None` where there is none.
+    pub fn fit(
+        values: impl Iterator<Item = f64>,
+        log: bool,
+        range: Option<(f64, f64)>,
+        room: bool,
+    ) -> Option<Self> {
+        let drawable = |v: &f64| v.is_finite() && (!log || *v > 0.0);
+        let (mut low, mut high) = match range {
+            Some(range) => range,
+            None => values
+                .filter(drawable)
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
+                    (low.min(v), high.max(v))
+                }),
+        };
+        if !drawable(&low) || !drawable(&high) {
+            return None;
+        }
+        if low >= high {
+            // One value only: put it in the middle.
+            (low, high) = if log {
+                (low / 2.0, high * 2.0)
+            } else {
+                (low - 0.5, high + 0.5)
+            };
+        } else if room && range.is_none() {
+            if log {
+                let pad = (high / low).powf(0.04);
+                (low, high) = (low / pad, high * pad);
+            } else {
+                let pad = 0.05 * (high - low);
+                // A curve that comes near zero is read against zero.
+                low = if low >= 0.0 && low < 0.5 * high {
+                    0.0
+                } else {
+                    low - pad
+                };
+                high += pad;
+            }
+        }
+        Some(Self { low, high, log })
+    }
+
+    /// Where `value` stands: 0 at the low end, 1 at the high end; NaN where it cannot stand.
+    pub fn share(&self, value: f64) -> f64 {
+        if self.log {
+            if value <= 0.0 {
+                return f64::NAN;
+            }
+            (value / self.low).ln() / (self.high / self.low).ln()
+        } else {
+            (value - self.low) / (self.high - self.low)
+        }
+    }
+
+    /// Whether `value` lies within the axis.
+    pub fn holds(&self, value: f64) -> bool {
+        (-1e-9..=1.0 + 1e-9).contains(&self.share(value))
+    }
+
+    /// Ticks with at most about `count` labels.
+    pub fn ticks(&self, count: usize) -> Vec<Tick> {
+        if self.log && self.high / self.low >= 5.0 {
+            self.log_ticks(count)
+        } else {
+            self.linear_ticks(count)
+        }
+    }
+
+    fn linear_ticks(&self, count: usize) -> Vec<Tick> {
+        let raw = (self.high - self.low) / count.max(1) as f64;
+        let power = 10.0_f64.powf(raw.log10().floor());
+        let step = [1.0, 2.0, 2.5, 5.0, 10.0]
+            .into_iter()
+            .map(|factor| factor * power)
+            .find(|step| *step >= raw * 0.999)
+            .unwrap_or(10.0 * power);
+        let decimals = (0..12)
+            .find(|&d| {
+                let scaled = step * 10.0_f64.powi(d);
+                (scaled - scaled.round()).abs() < 1e-6 * scaled.max(1.0)
+            })
+            .unwrap_or(0) as usize;
+        let first = (self.low / step - 1e-9).ceil() as i64;
+        let last = (self.high / step + 1e-9).floor() as i64;
+        (first..=last.min(first + 200))
+            .map(|i| {
+                let at = i as f64 * step;
+                Tick {
+                    at,
+                    label: minus(format!("{at:.decimals$}")),
+                }
+            })
+            .collect()
+    }
+
+    fn log_ticks(&self, count: usize) -> Vec<Tick> {
+        let first = (self.low.log10() - 1e-9).floor() as i32;
+        let last = (self.high.log10() + 1e-9).ceil() as i32;
+        let decades = (last - first).max(1) as usize;
+        let every = decades.div_ceil(count.max(1)).max(1) as i32;
+        // With few decades the labels 2 and 5 fit in between.
+        let between = decades * 3 <= count + 2;
+        let mut ticks = Vec::new();
+        for exponent in first..=last {
+            for digit in 1..=9 {
+                let at = f64::from(digit) * 10.0_f64.powi(exponent);
+                if !self.holds(at) {
+                    continue;
+                }
+                let labelled = match digit {
+                    1 => exponent.rem_euclid(every) == 0,
+                    2 | 5 => between,
+                    _ => false,
+                };
+                if labelled || every == 1 {
+                    let label = if labelled {
+                        power(digit, exponent)
+                    } else {
+                        String::new()
+                    };
+                    ticks.push(Tick { at, label });
+                }
+            }
+        }
+        ticks
+    }
+}
+
+fn minus(text: String) -> String {
+    text.replace('-', "\u{2212}")
+}
+
+/// `digit`·10^`exponent`, written out where that is short.
+fn power(digit: i32, exponent: i32) -> String {
+    match exponent {
+        0..=4 => (i64::from(digit) * 10_i64.pow(exponent as u32)).to_string(),
+        -4..=-1 => format!(
+            "{:.*}",
+            -exponent as usize,
+            f64::from(digit) * 10.0_f64.powi(exponent)
+        ),
+        _ => {
+            let raised: String = exponent
+                .to_string()
+                .chars()
+                .map(|c| match c {
+                    '-' => '⁻',
+                    '1' => '¹',
+                    '2' => '²',
+                    '3' => '³',
+                    other => char::from_u32('⁰' as u32 + other.to_digit(10).unwrap_or(0))
+                        .unwrap_or(other),
+                })
+                .collect();
+            if digit == 1 {
+                format!("10{raised}")
+            } else {
+                format!("{digit}·10{raised}")
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check_labels(low: f64, high: f64, log: bool, count: usize, expected: &[&str]) {
+        let axis = Axis::fit([].into_iter(), log, Some((low, high)), false).expect("a range");
+        let labels: Vec<String> = axis
+            .ticks(count)
+            .into_iter()
+            .map(|t| t.label)
+            .filter(|l| !l.is_empty())
+            .collect();
+        assert_eq!(labels, expected);
+    }
+
+    #[test]
+    fn ticks_are_round_numbers() {
+        check_labels(
+            0.0,
+            1.0,
+            false,
+            5,
+            &["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"],
+        );
+        check_labels(-1.0, 1.0, false, 4, &["−1.0", "−0.5", "0.0", "0.5", "1.0"]);
+        check_labels(0.0, 90.0, false, 6, &["0", "20", "40", "60", "80"]);
+        check_labels(0.01, 100.0, true, 6, &["0.01", "0.1", "1", "10", "100"]);
+        check_labels(
+            0.1,
+            10.0,
+            true,
+            8,
+            &["0.1", "0.2", "0.5", "1", "2", "5", "10"],
+        );
+        check_labels(1e-8, 1.0, true, 4, &["10⁻⁸", "10⁻⁶", "0.0001", "0.01", "1"]);
+    }
+
+    #[test]
+    fn an_axis_needs_a_value_it_can_show() {
+        assert!(Axis::fit([f64::NAN].into_iter(), false, None, true).is_none());
+        assert!(Axis::fit([-1.0, 0.0].into_iter(), true, None, true).is_none());
+        assert!(
+            Axis::fit([3.0].into_iter(), false, None, true)
+                .is_some_and(|axis| axis.share(3.0) == 0.5)
+        );
+    }
+}

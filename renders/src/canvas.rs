@@ -1,0 +1,230 @@
+//! A picture in memory: pixels, anti-aliased strokes, text, PNG.
+
+use crate::colour::{Rgb, mix};
+use crate::text::{self, Weight};
+
+/// Where a text stands relative to the point it is drawn at.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Align {
+    /// The text starts there.
+    Left,
+    /// The text is centred there.
+    Centre,
+    /// The text ends there.
+    Right,
+}
+
+/// Opaque sRGB pixels, rows from the top.
+pub struct Canvas {
+    width: usize,
+    height: usize,
+    pixels: Vec<Rgb>,
+}
+
+impl Canvas {
+    /// A canvas of one colour.
+    pub fn new(width: usize, height: usize, paper: Rgb) -> Self {
+        Self {
+            width,
+            height,
+            pixels: vec![paper; width * height],
+        }
+    }
+
+    /// Width in pixels.
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Height in pixels.
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// Red, green, blue, 255 of every pixel.
+    pub fn rgba(&self) -> Vec<u8> {
+        self.pixels
+            .iter()
+            .flat_map(|&[r, g, b]| [r, g, b, 255])
+            .collect()
+    }
+
+    /// Replaces one pixel; outside the canvas nothing happens.
+    pub fn set(&mut self, x: i32, y: i32, colour: Rgb) {
+        self.blend(x, y, colour, 1.0);
+    }
+
+    /// Lays `colour` over one pixel with `coverage` in [0, 1].
+    pub fn blend(&mut self, x: i32, y: i32, colour: Rgb, coverage: f32) {
+        let (Ok(column), Ok(row)) = (usize::try_from(x), usize::try_from(y)) else {
+            return;
+        };
+        if column >= self.width || row >= self.height || coverage <= 0.0 {
+            return;
+        }
+        let pixel = &mut self.pixels[row * self.width + column];
+        *pixel = if coverage >= 1.0 {
+            colour
+        } else {
+            mix(*pixel, colour, f64::from(coverage))
+        };
+    }
+
+    /// Fills the rectangle from (`x`, `y`), `width` by `height` pixels.
+    pub fn rect(&mut self, x: f32, y: f32, width: f32, height: f32, colour: Rgb, opacity: f32) {
+        let cover = |from: f32, to: f32, at: i32| {
+            (to.min(at as f32 + 1.0) - from.max(at as f32)).clamp(0.0, 1.0)
+        };
+        for row in y.floor() as i32..(y + height).ceil() as i32 {
+            let vertical = cover(y, y + height, row);
+            for column in x.floor() as i32..(x + width).ceil() as i32 {
+                let coverage = vertical * cover(x, x + width, column) * opacity;
+                self.blend(column, row, colour, coverage);
+            }
+        }
+    }
+
+    /// A polyline `width` pixels thick with round joins and ends, blended once where it
+    /// crosses itself.
+    pub fn stroke(&mut self, points: &[(f32, f32)], width: f32, colour: Rgb, opacity: f32) {
+        let segments: Vec<[(f32, f32); 2]> =
+            points.windows(2).map(|pair| [pair[0], pair[1]]).collect();
+        self.strokes(&segments, width, colour, opacity);
+    }
+
+    /// Segments in any order, drawn as one figure: where they meet or cross nothing is blended
+    /// twice.
+    pub fn strokes(&mut self, segments: &[[(f32, f32); 2]], width: f32, colour: Rgb, opacity: f32) {
+        let reach = width / 2.0 + 1.0;
+        let bound = |pick: fn(&(f32, f32)) -> f32, limit: usize| {
+            let values = segments
+                .iter()
+                .flatten()
+                .map(pick)
+                .filter(|v| v.is_finite());
+            let (low, high) = values.fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), v| {
+                (low.min(v), high.max(v))
+            });
+            let low = (low - reach).floor().clamp(0.0, limit as f32) as usize;
+            (
+                low,
+                (high + reach).ceil().clamp(low as f32, limit as f32) as usize,
+            )
+        };
+        let (left, right) = bound(|p| p.0, self.width);
+        let (top, bottom) = bound(|p| p.1, self.height);
+        let columns = right - left;
+        let mut coverage = vec![0.0_f32; columns * (bottom - top)];
+        for &[(x0, y0), (x1, y1)] in segments {
+            let (dx, dy) = (x1 - x0, y1 - y0);
+            let length2 = dx * dx + dy * dy;
+            if !length2.is_finite() {
+                continue;
+            }
+            let first = ((y0.min(y1) - reach).floor().max(top as f32)) as usize;
+            let last = ((y0.max(y1) + reach).ceil().min(bottom as f32)).max(0.0) as usize;
+            for row in first..last {
+                let y = row as f32 + 0.5;
+                let from = ((x0.min(x1) - reach).floor().max(left as f32)) as usize;
+                let to = ((x0.max(x1) + reach).ceil().min(right as f32)).max(0.0) as usize;
+                for column in from..to {
+                    let x = column as f32 + 0.5;
+                    let t = if length2 > 0.0 {
+                        (((x - x0) * dx + (y - y0) * dy) / length2).clamp(0.0, 1.0)
+                    } else {
+                        0.0
+                    };
+                    let distance = (x - x0 - t * dx).hypot(y - y0 - t * dy);
+                    let covers = (width / 2.0 + 0.5 - distance).clamp(0.0, width.min(1.0));
+                    let slot = &mut coverage[(row - top) * columns + column - left];
+                    *slot = slot.max(covers);
+                }
+            }
+        }
+        for (index, covers) in coverage.into_iter().enumerate() {
+            if covers > 0.0 {
+                let (column, row) = (left + index % columns, top + index / columns);
+                self.blend(column as i32, row as i32, colour, covers * opacity);
+            }
+        }
+    }
+
+    /// A filled circle.
+    pub fn disc(&mut self, x: f32, y: f32, radius: f32, colour: Rgb) {
+        self.stroke(&[(x, y), (x, y)], 2.0 * radius, colour, 1.0);
+    }
+
+    /// One line of text: (`x`, `y`) is on the baseline; `size` is the em in pixels. Returns the
+    /// width drawn.
+    pub fn text(
+        &mut self,
+        x: f32,
+        y: f32,
+        size: f32,
+        weight: Weight,
+        align: Align,
+        colour: Rgb,
+        line: &str,
+    ) -> f32 {
+        let width = text::width(line, size, weight);
+        let start = x - width * align.share();
+        let (left, base) = (start.floor(), y.round() as i32);
+        text::rasterise(line, size, weight, start - left, |dx, dy, coverage| {
+            self.blend(left as i32 + dx, base + dy, colour, coverage);
+        });
+        width
+    }
+
+    /// One line of text that reads upwards; (`x`, `y`) is on its baseline, which runs up.
+    pub fn text_up(
+        &mut self,
+        x: f32,
+        y: f32,
+        size: f32,
+        weight: Weight,
+        align: Align,
+        colour: Rgb,
+        line: &str,
+    ) {
+        let start = y + text::width(line, size, weight) * align.share();
+        text::rasterise(line, size, weight, 0.0, |dx, dy, coverage| {
+            self.blend(
+                x.round() as i32 + dy,
+                start.round() as i32 - dx,
+                colour,
+                coverage,
+            );
+        });
+    }
+}
+
+impl Align {
+    /// The share of the text's width that stands before the point.
+    pub(crate) fn share(self) -> f32 {
+        match self {
+            Self::Left => 0.0,
+            Self::Centre => 0.5,
+            Self::Right => 1.0,
+        }
+    }
+}
+
+/// A PNG file of `rgba` pixels, written without alpha and tagged as sRGB.
+pub fn png(width: u32, height: u32, rgba: &[u8]) -> Vec<u8> {
+    let rgb: Vec<u8> = rgba
+        .chunks_exact(4)
+        .flat_map(|p| [p[0], p[1], p[2]])
+        .collect();
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, width, height);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_compression(png::Compression::Balanced);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    // Writing to memory fails only if the buffer and the header disagree, which they cannot.
+    let written = encoder
+        .write_header()
+        .and_then(|mut writer| writer.write_image_data(&rgb));
+    debug_assert!(written.is_ok(), "{written:?}");
+    file
+}

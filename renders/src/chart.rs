@@ -1,0 +1,621 @@
+//! Line charts: laid out once, drawn through plotters as SVG or onto a [`Canvas`].
+//!
+//! Positions are computed in pixels and handed to the backend in eighths of a pixel, because
+//! plotters' coordinates are whole numbers and a curve that is rounded to pixels shows steps.
+
+use crate::axis::{Axis, Tick};
+use crate::backend::{CanvasBackend, EIGHTHS, FAMILY};
+use crate::canvas::{Canvas, png};
+use crate::colour::{LIGHT, Rgb, Theme};
+use crate::error::Error;
+use crate::text::{self, Weight};
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+/// A figure of curves, in the units of its axes.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PlotSpec {
+    /// Above the figure.
+    pub title: String,
+    /// Below the horizontal axis, with its unit.
+    pub x_label: String,
+    /// Beside the vertical axis, with its unit.
+    pub y_label: String,
+    /// Logarithmic horizontal axis; values that are not positive are left out.
+    pub x_log: bool,
+    /// Logarithmic vertical axis; values that are not positive are left out.
+    pub y_log: bool,
+    /// Each curve's name and points; a value that is not finite breaks the curve.
+    pub series: Vec<(String, Vec<(f64, f64)>)>,
+    /// Points worth a label: the label, x, y.
+    pub marks: Vec<(String, f64, f64)>,
+}
+
+/// A figure with what only this crate's pictures need beyond [`PlotSpec`].
+pub(crate) struct Chart<'a> {
+    pub spec: &'a PlotSpec,
+    pub theme: &'a Theme,
+    pub x_range: Option<(f64, f64)>,
+    pub y_range: Option<(f64, f64)>,
+    /// Shaded stretches of the horizontal axis, with what they mean.
+    pub bands: Vec<(f64, f64, String)>,
+    /// Vertical lines, with what they mean.
+    pub verticals: Vec<(f64, String)>,
+    /// Size of the labels' em in pixels; everything else follows it.
+    pub em: f64,
+}
+
+/// A plot as an SVG document of `width` by `height` pixels.
+///
+/// # Errors
+/// Where the picture is too small to hold its labels, or nothing in it can be drawn.
+pub fn plot_svg(spec: &PlotSpec, width: u32, height: u32) -> Result<String, Error> {
+    let mut document = String::new();
+    let eighths = (
+        width.saturating_mul(EIGHTHS as u32),
+        height.saturating_mul(EIGHTHS as u32),
+    );
+    {
+        let area = SVGBackend::with_string(&mut document, eighths).into_drawing_area();
+        page(spec, width, height).draw(&area, f64::from(width), f64::from(height))?;
+        area.present().map_err(|e| Error::Plot(e.to_string()))?;
+    }
+    // The coordinates stay eighths (the viewBox); only the size on the page is in pixels.
+    let in_eighths = format!("width=\"{}\" height=\"{}\"", eighths.0, eighths.1);
+    let in_pixels = format!("role=\"img\" width=\"{width}\" height=\"{height}\"");
+    let document = document.replacen(&in_eighths, &in_pixels, 1);
+    let escaped = spec
+        .title
+        .replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;");
+    Ok(document.replacen(">\n", &format!(">\n<title>{escaped}</title>\n"), 1))
+}
+
+/// A plot as a PNG file of `width` by `height` pixels.
+///
+/// # Errors
+/// As [`plot_svg`].
+pub fn plot_png(spec: &PlotSpec, width: u32, height: u32) -> Result<Vec<u8>, Error> {
+    let mut canvas = Canvas::new(width as usize, height as usize, LIGHT.paper);
+    page(spec, width, height).on_canvas(
+        &mut canvas,
+        0.0,
+        0.0,
+        f64::from(width),
+        f64::from(height),
+    )?;
+    Ok(png(width, height, &canvas.rgba()))
+}
+
+/// A plot that stands alone on a page.
+fn page(spec: &PlotSpec, width: u32, height: u32) -> Chart<'_> {
+    let em = (f64::from(width.min(height * 8 / 5)) / 58.0).clamp(9.0, 40.0);
+    Chart {
+        spec,
+        theme: &LIGHT,
+        x_range: None,
+        y_range: None,
+        bands: Vec::new(),
+        verticals: Vec::new(),
+        em,
+    }
+}
+
+/// The part of the picture between the axes, in pixels.
+#[derive(Clone, Copy)]
+struct Frame {
+    left: f64,
+    top: f64,
+    right: f64,
+    bottom: f64,
+}
+
+impl Chart<'_> {
+    /// Draws into the rectangle of a canvas that starts at (`left`, `top`).
+    pub(crate) fn on_canvas(
+        &self,
+        canvas: &mut Canvas,
+        left: f64,
+        top: f64,
+        width: f64,
+        height: f64,
+    ) -> Result<(), Error> {
+        let area = CanvasBackend::new(canvas, left, top).into_drawing_area();
+        self.draw(&area, width, height)
+    }
+
+    fn draw<B: DrawingBackend>(
+        &self,
+        area: &DrawingArea<B, Shift>,
+        width: f64,
+        height: f64,
+    ) -> Result<(), Error> {
+        let em = self.em;
+        let finite = || {
+            self.spec
+                .series
+                .iter()
+                .flat_map(|(_, points)| points.iter().copied())
+        };
+        let marks = || self.spec.marks.iter().map(|mark| (mark.1, mark.2));
+        let x_axis = Axis::fit(
+            finite().chain(marks()).map(|p| p.0),
+            self.spec.x_log,
+            self.x_range,
+            false,
+        );
+        let y_axis = Axis::fit(
+            finite().chain(marks()).map(|p| p.1),
+            self.spec.y_log,
+            self.y_range,
+            true,
+        );
+        let (Some(x_axis), Some(y_axis)) = (x_axis, y_axis) else {
+            return Err(Error::Plot("no value in the plot can be drawn".to_owned()));
+        };
+
+        let pen = Pen { area };
+        pen.rect(0.0, 0.0, width, height, self.theme.paper, 1.0)?;
+        let legend_rows = self.legend_rows(width - 2.0 * em);
+        let title = if self.spec.title.is_empty() {
+            0.0
+        } else {
+            2.3 * em
+        };
+        let y_ticks = y_axis.ticks(((height - title) / (3.2 * em)).max(2.0) as usize);
+        let tick_width = y_ticks
+            .iter()
+            .map(|tick| f64::from(text::width(&tick.label, em as f32, Weight::Regular)))
+            .fold(0.0, f64::max);
+        let y_label = if self.spec.y_label.is_empty() {
+            0.0
+        } else {
+            1.9 * em
+        };
+        let frame = Frame {
+            left: 0.8 * em + y_label + tick_width + 0.6 * em,
+            top: 0.9 * em + title + 1.7 * em * legend_rows.len() as f64,
+            right: width - 1.4 * em,
+            bottom: height
+                - 2.1 * em
+                - if self.spec.x_label.is_empty() {
+                    0.0
+                } else {
+                    1.7 * em
+                },
+        };
+        if frame.right - frame.left < 4.0 * em || frame.bottom - frame.top < 3.0 * em {
+            return Err(Error::Plot(format!(
+                "{width} by {height} pixels leave no room for the plot"
+            )));
+        }
+        let x_ticks = x_axis.ticks(((frame.right - frame.left) / (5.5 * em)).max(2.0) as usize);
+
+        if title > 0.0 {
+            let size = 1.3 * em;
+            let line = text::shorten(
+                &self.spec.title,
+                size as f32,
+                Weight::Bold,
+                (width - 2.0 * em) as f32,
+            );
+            pen.text(
+                em,
+                1.7 * em,
+                size,
+                Weight::Bold,
+                HPos::Left,
+                self.theme.ink,
+                &line,
+            )?;
+        }
+        self.draw_legend(&pen, &legend_rows, 0.6 * em + title)?;
+        self.draw_grid(&pen, frame, (&x_axis, &x_ticks), (&y_axis, &y_ticks))?;
+        self.draw_bands(&pen, frame, &x_axis)?;
+        for (index, (_, points)) in self.spec.series.iter().enumerate() {
+            let colour = self.theme.series[index % self.theme.series.len()];
+            for run in runs(points, &x_axis, &y_axis, frame) {
+                pen.path(&run, 0.17 * em, colour, 1.0)?;
+            }
+        }
+        self.draw_marks(&pen, frame, &x_axis, &y_axis)?;
+        let middle = (frame.left + frame.right) / 2.0;
+        pen.text(
+            middle,
+            height - 0.9 * em,
+            em,
+            Weight::Regular,
+            HPos::Center,
+            self.theme.ink,
+            &self.spec.x_label,
+        )?;
+        pen.text_up(
+            1.7 * em,
+            (frame.top + frame.bottom) / 2.0,
+            em,
+            self.theme.ink,
+            &self.spec.y_label,
+        )
+    }
+
+    /// The names of the curves, broken into rows of at most `width` pixels.
+    fn legend_rows(&self, width: f64) -> Vec<Vec<usize>> {
+        let mut rows: Vec<Vec<usize>> = Vec::new();
+        let mut used = f64::INFINITY;
+        for (index, (name, _)) in self.spec.series.iter().enumerate() {
+            if name.is_empty() {
+                continue;
+            }
+            let needs = self.legend_width(name);
+            match rows.last_mut() {
+                Some(row) if used + needs <= width => {
+                    row.push(index);
+                    used += needs;
+                }
+                _ => {
+                    rows.push(vec![index]);
+                    used = needs;
+                }
+            }
+        }
+        rows
+    }
+
+    fn legend_width(&self, name: &str) -> f64 {
+        f64::from(text::width(name, self.em as f32, Weight::Regular)) + 4.2 * self.em
+    }
+
+    fn draw_legend<B: DrawingBackend>(
+        &self,
+        pen: &Pen<'_, B>,
+        rows: &[Vec<usize>],
+        top: f64,
+    ) -> Result<(), Error> {
+        let em = self.em;
+        for (row_index, row) in rows.iter().enumerate() {
+            let y = top + 1.7 * em * row_index as f64 + 1.05 * em;
+            let mut x = em;
+            for &index in row {
+                let colour = self.theme.series[index % self.theme.series.len()];
+                pen.path(
+                    &[(x, y - 0.36 * em), (x + 1.8 * em, y - 0.36 * em)],
+                    0.22 * em,
+                    colour,
+                    1.0,
+                )?;
+                let name = &self.spec.series[index].0;
+                pen.text(
+                    x + 2.3 * em,
+                    y,
+                    em,
+                    Weight::Regular,
+                    HPos::Left,
+                    self.theme.ink,
+                    name,
+                )?;
+                x += self.legend_width(name);
+            }
+        }
+        Ok(())
+    }
+
+    fn draw_grid<B: DrawingBackend>(
+        &self,
+        pen: &Pen<'_, B>,
+        frame: Frame,
+        (x_axis, x_ticks): (&Axis, &[Tick]),
+        (y_axis, y_ticks): (&Axis, &[Tick]),
+    ) -> Result<(), Error> {
+        let em = self.em;
+        let theme = self.theme;
+        pen.rect(
+            frame.left,
+            frame.top,
+            frame.right,
+            frame.bottom,
+            theme.panel,
+            1.0,
+        )?;
+        for tick in y_ticks {
+            let y = frame.y(y_axis, tick.at);
+            pen.path(
+                &[(frame.left, y), (frame.right, y)],
+                tick.weight(em),
+                theme.grid,
+                1.0,
+            )?;
+            pen.text(
+                frame.left - 0.5 * em,
+                y + 0.36 * em,
+                em,
+                Weight::Regular,
+                HPos::Right,
+                theme.faint,
+                &tick.label,
+            )?;
+        }
+        for tick in x_ticks {
+            let x = frame.x(x_axis, tick.at);
+            pen.path(
+                &[(x, frame.top), (x, frame.bottom)],
+                tick.weight(em),
+                theme.grid,
+                1.0,
+            )?;
+            pen.text(
+                x,
+                frame.bottom + 1.35 * em,
+                em,
+                Weight::Regular,
+                HPos::Center,
+                theme.faint,
+                &tick.label,
+            )?;
+        }
+        Ok(())
+    }
+
+    fn draw_bands<B: DrawingBackend>(
+        &self,
+        pen: &Pen<'_, B>,
+        frame: Frame,
+        x_axis: &Axis,
+    ) -> Result<(), Error> {
+        let em = self.em;
+        for (from, to, says) in &self.bands {
+            let (left, right) = (frame.x(x_axis, *from), frame.x(x_axis, *to));
+            pen.rect(left, frame.top, right, frame.bottom, self.theme.paper, 0.75)?;
+            if right - left > f64::from(text::width(says, em as f32, Weight::Regular)) + em {
+                let middle = (frame.top + frame.bottom) / 2.0;
+                pen.text(
+                    (left + right) / 2.0,
+                    middle,
+                    em,
+                    Weight::Regular,
+                    HPos::Center,
+                    self.theme.faint,
+                    says,
+                )?;
+            }
+        }
+        for (at, says) in &self.verticals {
+            let x = frame.x(x_axis, *at);
+            let mut y = frame.top;
+            while y < frame.bottom {
+                pen.path(
+                    &[(x, y), (x, (y + 0.35 * em).min(frame.bottom))],
+                    0.09 * em,
+                    self.theme.faint,
+                    1.0,
+                )?;
+                y += 0.7 * em;
+            }
+            let width = f64::from(text::width(says, 0.9 * em as f32, Weight::Regular));
+            let (start, align) = if x + width + em > frame.right {
+                (x - 0.4 * em, HPos::Right)
+            } else {
+                (x + 0.4 * em, HPos::Left)
+            };
+            pen.text(
+                start,
+                frame.top + 1.1 * em,
+                0.9 * em,
+                Weight::Regular,
+                align,
+                self.theme.faint,
+                says,
+            )?;
+        }
+        Ok(())
+    }
+
+    fn draw_marks<B: DrawingBackend>(
+        &self,
+        pen: &Pen<'_, B>,
+        frame: Frame,
+        x_axis: &Axis,
+        y_axis: &Axis,
+    ) -> Result<(), Error> {
+        let em = self.em;
+        for (label, x, y) in &self.spec.marks {
+            if !x_axis.holds(*x) || !y_axis.holds(*y) {
+                continue;
+            }
+            let (x, y) = (frame.x(x_axis, *x), frame.y(y_axis, *y));
+            pen.disc(x, y, 0.42 * em, self.theme.panel)?;
+            pen.disc(x, y, 0.3 * em, self.theme.ink)?;
+            let width = f64::from(text::width(label, em as f32, Weight::Regular));
+            let (start, align) = if x + width + em > frame.right {
+                (x - 0.7 * em, HPos::Right)
+            } else {
+                (x + 0.7 * em, HPos::Left)
+            };
+            let base = if y - 1.4 * em < frame.top {
+                y + 1.3 * em
+            } else {
+                y - 0.5 * em
+            };
+            pen.text(
+                start,
+                base,
+                em,
+                Weight::Regular,
+                align,
+                self.theme.ink,
+                label,
+            )?;
+        }
+        Ok(())
+    }
+}
+
+impl Frame {
+    fn x(self, axis: &Axis, value: f64) -> f64 {
+        self.left + axis.share(value) * (self.right - self.left)
+    }
+
+    fn y(self, axis: &Axis, value: f64) -> f64 {
+        self.bottom - axis.share(value) * (self.bottom - self.top)
+    }
+}
+
+/// A curve as runs of drawable points in pixels, cut where it leaves the frame's top or bottom.
+fn runs(points: &[(f64, f64)], x_axis: &Axis, y_axis: &Axis, frame: Frame) -> Vec<Vec<(f64, f64)>> {
+    let mut runs: Vec<Vec<(f64, f64)>> = Vec::new();
+    let mut previous: Option<(f64, f64)> = None;
+    for &(x, y) in points {
+        let (u, v) = (x_axis.share(x), y_axis.share(y));
+        let here =
+            (u.is_finite() && v.is_finite() && (-1e-9..=1.0 + 1e-9).contains(&u)).then_some((u, v));
+        let segment = previous.zip(here).and_then(|(from, to)| clip(from, to));
+        if let Some((from, to)) = segment {
+            let pixel = |(u, v): (f64, f64)| {
+                (
+                    frame.left + u * (frame.right - frame.left),
+                    frame.bottom - v * (frame.bottom - frame.top),
+                )
+            };
+            let (from, to) = (pixel(from), pixel(to));
+            match runs.last_mut() {
+                Some(run) if run.last() == Some(&from) => run.push(to),
+                _ => runs.push(vec![from, to]),
+            }
+        }
+        previous = here;
+    }
+    runs
+}
+
+/// The part of a segment between the heights 0 and 1.
+fn clip(from: (f64, f64), to: (f64, f64)) -> Option<((f64, f64), (f64, f64))> {
+    let at = |height: f64| {
+        let t = (height - from.1) / (to.1 - from.1);
+        (from.0 + t * (to.0 - from.0), height)
+    };
+    if from.1.max(to.1) < 0.0 || from.1.min(to.1) > 1.0 {
+        return None;
+    }
+    let inside = |point: (f64, f64)| match point.1 {
+        v if v < 0.0 => at(0.0),
+        v if v > 1.0 => at(1.0),
+        _ => point,
+    };
+    Some((inside(from), inside(to)))
+}
+
+/// Draws in pixels on a plotters area that counts in eighths.
+struct Pen<'a, B: DrawingBackend> {
+    area: &'a DrawingArea<B, Shift>,
+}
+
+fn eighths(pixels: f64) -> i32 {
+    (pixels * EIGHTHS).round() as i32
+}
+
+fn rgba(colour: Rgb, opacity: f64) -> RGBAColor {
+    RGBColor(colour[0], colour[1], colour[2]).mix(opacity)
+}
+
+impl<B: DrawingBackend> Pen<'_, B> {
+    fn draw<'e, E>(&self, element: &'e E) -> Result<(), Error>
+    where
+        E: plotters::element::Drawable<B>,
+        &'e E: plotters::element::PointCollection<'e, (i32, i32)>,
+    {
+        self.area
+            .draw(element)
+            .map_err(|e| Error::Plot(e.to_string()))
+    }
+
+    fn rect(
+        &self,
+        left: f64,
+        top: f64,
+        right: f64,
+        bottom: f64,
+        colour: Rgb,
+        opacity: f64,
+    ) -> Result<(), Error> {
+        let corners = [
+            (eighths(left), eighths(top)),
+            (eighths(right), eighths(bottom)),
+        ];
+        self.draw(&Rectangle::new(corners, rgba(colour, opacity).filled()))
+    }
+
+    fn path(
+        &self,
+        points: &[(f64, f64)],
+        width: f64,
+        colour: Rgb,
+        opacity: f64,
+    ) -> Result<(), Error> {
+        let points: Vec<(i32, i32)> = points
+            .iter()
+            .map(|&(x, y)| (eighths(x), eighths(y)))
+            .collect();
+        let style = rgba(colour, opacity).stroke_width(eighths(width).max(1) as u32);
+        self.draw(&PathElement::new(points, style))
+    }
+
+    fn disc(&self, x: f64, y: f64, radius: f64, colour: Rgb) -> Result<(), Error> {
+        self.draw(&Circle::new(
+            (eighths(x), eighths(y)),
+            eighths(radius),
+            rgba(colour, 1.0).filled(),
+        ))
+    }
+
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "a text has a place, a look and a content"
+    )]
+    fn text(
+        &self,
+        x: f64,
+        baseline: f64,
+        em: f64,
+        weight: Weight,
+        align: HPos,
+        colour: Rgb,
+        line: &str,
+    ) -> Result<(), Error> {
+        let style = self.style(em, weight, align, colour);
+        // plotters hangs a text 0.76 em below its top: from the baseline that is upwards.
+        self.area
+            .draw_text(line, &style, (eighths(x), eighths(baseline - 0.76 * em)))
+            .map_err(|e| Error::Plot(e.to_string()))
+    }
+
+    fn text_up(
+        &self,
+        baseline: f64,
+        y: f64,
+        em: f64,
+        colour: Rgb,
+        line: &str,
+    ) -> Result<(), Error> {
+        let style = self
+            .style(em, Weight::Regular, HPos::Center, colour)
+            .transform(FontTransform::Rotate270);
+        self.area
+            .draw_text(line, &style, (eighths(baseline - 0.76 * em), eighths(y)))
+            .map_err(|e| Error::Plot(e.to_string()))
+    }
+
+    fn style(&self, em: f64, weight: Weight, align: HPos, colour: Rgb) -> TextStyle<'static> {
+        let slant = match weight {
+            Weight::Regular => FontStyle::Normal,
+            Weight::Bold => FontStyle::Bold,
+        };
+        // plotters divides the size of a font by 1.24 to get the em.
+        let font = FontDesc::new(FontFamily::Name(FAMILY), em * EIGHTHS * 1.24, slant);
+        TextStyle {
+            font,
+            color: rgba(colour, 1.0).to_backend_color(),
+            pos: Pos::new(align, VPos::Top),
+        }
+    }
+}

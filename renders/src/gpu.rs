@@ -1,0 +1,279 @@
+//! Both formulas on a graphics processor, without a window. Nothing here is created before a
+//! picture is wanted, and no failure is a panic: every call that can fail runs in an error scope.
+
+use crate::error::Error;
+use crate::sample::Samples;
+use crate::scene::{Scene, VARYING};
+use crate::shade::Values;
+use formula::{Expr, Library};
+use std::fmt::Write as _;
+
+/// Samples in one dispatch: 16 MiB of input, well within every adapter's limits.
+const CHUNK: usize = 1 << 20;
+const WORKGROUP: usize = 64;
+
+/// A device with the two formulas compiled for it.
+pub(crate) struct Gpu {
+    device: wgpu::Device,
+    queue: wgpu::Queue,
+    pipeline: wgpu::ComputePipeline,
+    pub adapter: String,
+}
+
+/// Which adapters will do.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Wanted {
+    /// Any, software included.
+    Any,
+    /// A real graphics processor only.
+    Hardware,
+}
+
+fn adapter(wanted: Wanted) -> Result<(wgpu::Adapter, wgpu::AdapterInfo), Error> {
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
+        backends: wgpu::Backends::PRIMARY,
+        flags: wgpu::InstanceFlags::empty(),
+        ..wgpu::InstanceDescriptor::new_without_display_handle()
+    });
+    let request = instance.request_adapter(&wgpu::RequestAdapterOptions {
+        power_preference: wgpu::PowerPreference::HighPerformance,
+        ..Default::default()
+    });
+    let adapter =
+        pollster::block_on(request).map_err(|_| Error::NoAdapter("none was found".to_owned()))?;
+    let info = adapter.get_info();
+    if wanted == Wanted::Hardware && info.device_type == wgpu::DeviceType::Cpu {
+        return Err(Error::NoAdapter(format!(
+            "{} is a software driver",
+            info.name
+        )));
+    }
+    Ok((adapter, info))
+}
+
+fn describe(info: &wgpu::AdapterInfo) -> String {
+    format!("{} ({})", info.name, info.backend)
+}
+
+/// The adapter that [`crate::Backend::Gpu`] would draw on, in words.
+///
+/// # Errors
+/// [`Error::NoAdapter`] where there is none.
+pub fn gpu_adapter() -> Result<String, Error> {
+    adapter(Wanted::Any).map(|(_, info)| describe(&info))
+}
+
+impl Gpu {
+    pub fn new(
+        wanted: Wanted,
+        library: &Library,
+        right: &Expr,
+        wrong: &Expr,
+        scene: &Scene,
+    ) -> Result<Self, Error> {
+        let source = shader(library, right, wrong, scene)?;
+        let (adapter, info) = adapter(wanted)?;
+        let request = adapter.request_device(&wgpu::DeviceDescriptor {
+            label: Some("fingerprint"),
+            // What every adapter has: the picture needs nothing more.
+            required_limits: wgpu::Limits::downlevel_defaults(),
+            ..Default::default()
+        });
+        let (device, queue) = pollster::block_on(request).map_err(|e| Error::Gpu(e.to_string()))?;
+        let pipeline = guarded(&device, |device| {
+            let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some("fingerprint"),
+                source: wgpu::ShaderSource::Wgsl(source.into()),
+            });
+            device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some("fingerprint"),
+                layout: None,
+                module: &module,
+                entry_point: Some("shade"),
+                compilation_options: Default::default(),
+                cache: None,
+            })
+        })?;
+        Ok(Self {
+            device,
+            queue,
+            pipeline,
+            adapter: describe(&info),
+        })
+    }
+
+    pub fn evaluate(&self, samples: &Samples) -> Result<Values, Error> {
+        let mut values = Values {
+            right: Vec::with_capacity(samples.len()),
+            wrong: Vec::with_capacity(samples.len()),
+        };
+        for start in (0..samples.len()).step_by(CHUNK) {
+            let end = (start + CHUNK).min(samples.len());
+            for [right, wrong] in self.dispatch(samples, start, end)? {
+                values.right.push(f64::from(right));
+                values.wrong.push(f64::from(wrong));
+            }
+        }
+        Ok(values)
+    }
+
+    fn dispatch(
+        &self,
+        samples: &Samples,
+        start: usize,
+        end: usize,
+    ) -> Result<Vec<[f32; 2]>, Error> {
+        let points: Vec<[f32; 4]> = (start..end)
+            .map(|i| {
+                [
+                    samples.n_dot_l[i],
+                    samples.n_dot_v[i],
+                    samples.n_dot_h[i],
+                    samples.cos_phi[i],
+                ]
+                .map(|v| v as f32)
+            })
+            .collect();
+        let bytes: &[u8] = bytemuck::cast_slice(&points);
+        let result_size = (points.len() * size_of::<[f32; 2]>()) as u64;
+        let readback = guarded(&self.device, |device| {
+            let buffer = |size: u64, usage: wgpu::BufferUsages| {
+                device.create_buffer(&wgpu::BufferDescriptor {
+                    label: None,
+                    size,
+                    usage,
+                    mapped_at_creation: false,
+                })
+            };
+            let input = buffer(
+                bytes.len() as u64,
+                wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
+            );
+            let output = buffer(
+                result_size,
+                wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
+            );
+            let readback = buffer(
+                result_size,
+                wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+            );
+            self.queue.write_buffer(&input, 0, bytes);
+            let bindings = device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: None,
+                layout: &self.pipeline.get_bind_group_layout(0),
+                entries: &[
+                    wgpu::BindGroupEntry {
+                        binding: 0,
+                        resource: input.as_entire_binding(),
+                    },
+                    wgpu::BindGroupEntry {
+                        binding: 1,
+                        resource: output.as_entire_binding(),
+                    },
+                ],
+            });
+            let mut encoder = device.create_command_encoder(&Default::default());
+            {
+                let mut pass = encoder.begin_compute_pass(&Default::default());
+                pass.set_pipeline(&self.pipeline);
+                pass.set_bind_group(0, &bindings, &[]);
+                pass.dispatch_workgroups(points.len().div_ceil(WORKGROUP) as u32, 1, 1);
+            }
+            encoder.copy_buffer_to_buffer(&output, 0, &readback, 0, result_size);
+            self.queue.submit([encoder.finish()]);
+            readback
+        })?;
+        let (sender, receiver) = std::sync::mpsc::channel();
+        readback
+            .slice(..)
+            .map_async(wgpu::MapMode::Read, move |result| {
+                // The receiver is gone only if this function has already failed.
+                let _ = sender.send(result);
+            });
+        self.device
+            .poll(wgpu::PollType::wait_indefinitely())
+            .map_err(|e| Error::Gpu(e.to_string()))?;
+        match receiver.recv() {
+            Ok(Ok(())) => {}
+            Ok(Err(e)) => return Err(Error::Gpu(e.to_string())),
+            Err(_) => return Err(Error::Gpu("the result never arrived".to_owned())),
+        }
+        let view = readback
+            .slice(..)
+            .get_mapped_range()
+            .map_err(|e| Error::Gpu(e.to_string()))?;
+        Ok(bytemuck::cast_slice(&view).to_vec())
+    }
+}
+
+/// Runs `work` so that its failures come back as an error: outside a scope wgpu panics.
+fn guarded<T>(device: &wgpu::Device, work: impl FnOnce(&wgpu::Device) -> T) -> Result<T, Error> {
+    let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+    let internal = device.push_error_scope(wgpu::ErrorFilter::Internal);
+    let validation = device.push_error_scope(wgpu::ErrorFilter::Validation);
+    let result = work(device);
+    let errors = [validation.pop(), internal.pop()];
+    let mut errors: Vec<_> = errors.into_iter().map(pollster::block_on).collect();
+    errors.push(pollster::block_on(memory.pop()));
+    match errors.into_iter().flatten().next() {
+        None => Ok(result),
+        Some(error) => Err(Error::Gpu(first_line(&error.to_string()))),
+    }
+}
+
+fn first_line(text: &str) -> String {
+    text.lines()
+        .map(str::trim)
+        .filter(|line| !line.is_empty())
+        .take(3)
+        .collect::<Vec<_>>()
+        .join(": ")
+}
+
+/// The whole shader: the formulas' functions, their constants, and one entry point.
+fn shader(library: &Library, right: &Expr, wrong: &Expr, scene: &Scene) -> Result<String, Error> {
+    let constants = scene.constants();
+    let inputs: Vec<&str> = VARYING
+        .into_iter()
+        .chain(constants.iter().map(|(name, _)| name.as_str()))
+        .collect();
+    let compile = |which, expr| {
+        library
+            .wgsl(expr, &inputs)
+            .map_err(|error| Error::Formula { which, error })
+    };
+    let (right, wrong) = (compile("right", right)?, compile("wrong", wrong)?);
+    let mut source = String::new();
+    source.push_str(&right.functions);
+    // Both formulas may need the same functions: each is declared once.
+    for function in functions(&wrong.functions) {
+        if !right.functions.contains(function) {
+            source.push_str(function);
+        }
+    }
+    source.push_str(
+        "\n@group(0) @binding(0) var<storage, read> points: array<vec4<f32>>;\n\
+         @group(0) @binding(1) var<storage, read_write> values: array<vec2<f32>>;\n\n\
+         @compute @workgroup_size(64)\n\
+         fn shade(@builtin(global_invocation_id) id: vec3<u32>) {\n\
+         \x20   if (id.x >= arrayLength(&points)) { return; }\n\
+         \x20   let point = points[id.x];\n",
+    );
+    for (index, name) in VARYING.iter().enumerate() {
+        let _ = writeln!(source, "    let {name} = point[{index}];");
+    }
+    for (name, value) in &constants {
+        let _ = writeln!(source, "    let {name} = f32({:?});", *value as f32);
+    }
+    let _ = writeln!(
+        source,
+        "    values[id.x] = vec2<f32>({}, {});\n}}",
+        right.expr, wrong.expr
+    );
+    Ok(source)
+}
+
+/// Top-level functions of a WGSL text, each with its closing brace at the start of a line.
+fn functions(source: &str) -> impl Iterator<Item = &str> {
+    source.split_inclusive("\n}\n")
+}

@@ -1,0 +1,451 @@
+//! The picture that a learner sees: three panels, the profile below them, and the words.
+
+use crate::canvas::{Align, Canvas};
+use crate::chart::{Chart, PlotSpec};
+use crate::colour::{DARK, RATIO_STOPS, Rgb, diverging, mix, srgb_decode, srgb_encode, to_byte};
+use crate::contour;
+use crate::profile::{HIGHLIGHT_SHARE, Profile};
+use crate::sample::Panel;
+use crate::shade::Shaded;
+use crate::text::{Weight, shorten, wrap};
+use crate::visibility::Visibility;
+use crate::{Error, Fingerprint};
+
+/// The sphere where no light reaches it, in the ratio's panel.
+const UNLIT: Rgb = [9, 10, 13];
+
+/// Only the panels, for a terminal.
+pub(crate) fn compact(panel: &Panel, shaded: &Shaded, exposure: f64) -> Canvas {
+    let size = panel.size;
+    let gap = (size / 32).max(1);
+    let mut canvas = Canvas::new(3 * size + 2 * gap, size, DARK.paper);
+    panels(
+        &mut canvas,
+        panel,
+        shaded,
+        exposure,
+        [0, size + gap, 2 * (size + gap)],
+        0,
+    );
+    canvas
+}
+
+/// Positions and sizes in pixels; all follow the panel's size.
+struct Layout {
+    size: f32,
+    em: f32,
+    margin: f32,
+    gap: f32,
+    width: f32,
+}
+
+impl Layout {
+    fn of(panel: &Panel) -> Self {
+        let size = panel.size as f32;
+        let em = (size / 26.0).max(6.0);
+        let (margin, gap) = ((1.7 * em).round(), (1.3 * em).round());
+        Self {
+            size,
+            em,
+            margin,
+            gap,
+            width: 3.0 * size + 2.0 * (margin + gap),
+        }
+    }
+
+    /// Left edge of a panel.
+    fn column(&self, index: usize) -> f32 {
+        self.margin + index as f32 * (self.size + self.gap)
+    }
+}
+
+/// Panels, profile and words.
+pub(crate) fn full(
+    fingerprint: &Fingerprint<'_>,
+    panel: &Panel,
+    shaded: &Shaded,
+    profile: &Profile,
+    exposure: f64,
+    visibility: &Visibility,
+) -> Result<Canvas, Error> {
+    let layout = Layout::of(panel);
+    let Layout {
+        size,
+        em,
+        margin,
+        width,
+        ..
+    } = layout;
+    let caption = wrap(
+        &fingerprint.caption,
+        1.05 * em,
+        Weight::Regular,
+        width - 2.0 * margin,
+    );
+    let top = (margin + 1.4 * em + caption.len() as f32 * 1.55 * em + 4.2 * em).round();
+    let below = top + size + 1.1 * em;
+    let chart_height = 0.66 * size;
+    let notes = notes(fingerprint, exposure);
+    let height = below + chart_height + (1.2 + 1.5 * notes.len() as f32) * em + 0.6 * margin;
+    let mut canvas = Canvas::new(width as usize, height.round() as usize, DARK.paper);
+
+    let title = shorten(
+        &fingerprint.title,
+        1.7 * em,
+        Weight::Bold,
+        width - 2.0 * margin,
+    );
+    let mut y = margin + 1.0 * em;
+    canvas.text(
+        margin,
+        y,
+        1.7 * em,
+        Weight::Bold,
+        Align::Left,
+        DARK.ink,
+        &title,
+    );
+    y += 0.35 * em;
+    for line in &caption {
+        y += 1.55 * em;
+        canvas.text(
+            margin,
+            y,
+            1.05 * em,
+            Weight::Regular,
+            Align::Left,
+            DARK.faint,
+            line,
+        );
+    }
+
+    let columns = [0, 1, 2].map(|index| layout.column(index) as usize);
+    panels(&mut canvas, panel, shaded, exposure, columns, top as usize);
+    headings(&mut canvas, &layout, fingerprint, top);
+    let chart_width = 2.0 * size + layout.gap;
+    draw_profile(
+        &mut canvas,
+        (margin, below, chart_width, chart_height),
+        em,
+        fingerprint,
+        profile,
+        exposure,
+    )?;
+    let right = layout.column(2);
+    colour_bar(&mut canvas, right, below, size, em);
+    figures(&mut canvas, right, below + 4.6 * em, size, em, visibility);
+
+    let mut y = below + chart_height + 1.0 * em;
+    for note in &notes {
+        y += 1.5 * em;
+        let note = shorten(note, 0.95 * em, Weight::Regular, width - 2.0 * margin);
+        canvas.text(
+            margin,
+            y,
+            0.95 * em,
+            Weight::Regular,
+            Align::Left,
+            DARK.faint,
+            &note,
+        );
+    }
+    Ok(canvas)
+}
+
+/// Paints the three panels with their left edges at `columns`.
+fn panels(
+    canvas: &mut Canvas,
+    panel: &Panel,
+    shaded: &Shaded,
+    exposure: f64,
+    columns: [usize; 3],
+    top: usize,
+) {
+    let size = panel.size;
+    let encode = EncodeTable::new();
+    let surround = DARK.panel.map(srgb_decode);
+    for row in 0..size {
+        for column in 0..size {
+            let index = row * size + column;
+            let cover = panel.cover(column, row);
+            for (left, value) in [
+                (columns[0], shaded.right[index]),
+                (columns[1], shaded.wrong[index]),
+            ] {
+                let colour = if cover == 0.0 {
+                    DARK.panel
+                } else {
+                    surround.map(|behind| encode.byte(value * exposure + (1.0 - cover) * behind))
+                };
+                canvas.set((left + column) as i32, (top + row) as i32, colour);
+            }
+            let lit = f64::from(shaded.lit[index]);
+            let mut colour = mix(DARK.panel, UNLIT, cover);
+            if lit > 0.0 {
+                let ratio = (shaded.wrong[index] / shaded.right[index]).log2();
+                colour = mix(colour, diverging(ratio), lit);
+            }
+            canvas.set((columns[2] + column) as i32, (top + row) as i32, colour);
+        }
+    }
+    let offset = (columns[2] as f32, top as f32);
+    let contour: Vec<[(f32, f32); 2]> = contour::ratio_one(shaded, size)
+        .into_iter()
+        .map(|ends| ends.map(|(x, y)| (x + offset.0, y + offset.1)))
+        .collect();
+    canvas.strokes(&contour, (size as f32 / 180.0).max(1.0), [24, 24, 28], 1.0);
+}
+
+/// The sRGB curve for the many pixels of a panel: exact to a quarter of a level.
+struct EncodeTable(Vec<u8>);
+
+impl EncodeTable {
+    const STEPS: usize = 1 << 14;
+
+    fn new() -> Self {
+        Self(
+            (0..=Self::STEPS)
+                .map(|i| to_byte(srgb_encode(i as f64 / Self::STEPS as f64)))
+                .collect(),
+        )
+    }
+
+    fn byte(&self, linear: f64) -> u8 {
+        self.0[(linear.clamp(0.0, 1.0) * Self::STEPS as f64 + 0.5) as usize]
+    }
+}
+
+fn headings(canvas: &mut Canvas, layout: &Layout, fingerprint: &Fingerprint<'_>, top: f32) {
+    let em = layout.em;
+    let formula = |expr| fingerprint.library.unicode(expr);
+    let columns = [
+        ("correct", formula(fingerprint.right), DARK.series[0]),
+        ("buggy", formula(fingerprint.wrong), DARK.series[1]),
+        (
+            "buggy / correct",
+            "blue: too dark · orange: too bright · line: equal".to_owned(),
+            DARK.ink,
+        ),
+    ];
+    for (index, (name, below, colour)) in columns.into_iter().enumerate() {
+        let x = layout.column(index);
+        canvas.text(
+            x,
+            top - 2.05 * em,
+            1.15 * em,
+            Weight::Bold,
+            Align::Left,
+            colour,
+            name,
+        );
+        let line = shorten(&below, 0.9 * em, Weight::Regular, layout.size);
+        canvas.text(
+            x,
+            top - 0.6 * em,
+            0.9 * em,
+            Weight::Regular,
+            Align::Left,
+            DARK.faint,
+            &line,
+        );
+    }
+}
+
+fn colour_bar(canvas: &mut Canvas, left: f32, top: f32, width: f32, em: f32) {
+    let height = 1.1 * em;
+    for column in 0..width as usize {
+        let at = (column as f64 + 0.5) / f64::from(width);
+        let colour = diverging((2.0 * at - 1.0) * RATIO_STOPS);
+        canvas.rect(left + column as f32, top, 1.0, height, colour, 1.0);
+    }
+    let middle = left + width / 2.0;
+    canvas.stroke(
+        &[(middle, top), (middle, top + height)],
+        (em / 10.0).max(1.0),
+        [24, 24, 28],
+        1.0,
+    );
+    let stops = RATIO_STOPS as i32;
+    for stop in -stops..=stops {
+        let x = left + width * (stop + stops) as f32 / (2 * stops) as f32;
+        let factor = 1 << stop.abs();
+        let label = match stop {
+            0 => "equal".to_owned(),
+            _ if stop == -stops => format!("≤ 1/{factor}"),
+            _ if stop == stops => format!("≥ {factor}×"),
+            _ if stop < 0 => format!("1/{factor}"),
+            _ => format!("{factor}×"),
+        };
+        let align = match stop {
+            _ if stop == -stops => Align::Left,
+            _ if stop == stops => Align::Right,
+            _ => Align::Centre,
+        };
+        canvas.text(
+            x,
+            top + height + 1.25 * em,
+            0.9 * em,
+            Weight::Regular,
+            align,
+            DARK.faint,
+            &label,
+        );
+    }
+}
+
+/// A number for people: three significant digits, no needless zeros, no exponent.
+fn short(value: f64) -> String {
+    if !value.is_finite() {
+        return formula::format_number(value, formula::Digits::Significant(3));
+    }
+    let digits = match value.abs() {
+        v if v >= 100.0 => 0,
+        v if v >= 10.0 => 1,
+        v if v >= 0.1 || v == 0.0 => 2,
+        v if v >= 0.01 => 3,
+        _ => 4,
+    };
+    formula::format_number(value, formula::Digits::Decimals(digits))
+}
+
+fn percent(share: f64) -> String {
+    format!(
+        "{} %",
+        formula::format_number(100.0 * share, formula::Digits::Decimals(1))
+    )
+}
+
+/// The figures that say whether the bug shows.
+fn figures(canvas: &mut Canvas, left: f32, top: f32, width: f32, em: f32, visibility: &Visibility) {
+    let (rim_wrong, rim_right) = visibility.rim_over_highlight;
+    let (brighter, dimmer) = visibility.changed_8;
+    let rows = [
+        (
+            "highlight, buggy / correct",
+            format!("{}×", short(visibility.ratio_at_highlight)),
+        ),
+        (
+            "lit area that turns brighter",
+            percent(visibility.lit_above_one),
+        ),
+        ("rim / highlight, correct", short(rim_right)),
+        ("rim / highlight, buggy", short(rim_wrong)),
+        (
+            "terminator step / highlight",
+            short(visibility.terminator_step),
+        ),
+        ("pixels visibly brighter", percent(brighter)),
+        ("pixels visibly dimmer", percent(dimmer)),
+    ];
+    let mut y = top;
+    for (name, value) in rows {
+        canvas.text(left, y, em, Weight::Regular, Align::Left, DARK.faint, name);
+        canvas.text(
+            left + width,
+            y,
+            em,
+            Weight::Bold,
+            Align::Right,
+            DARK.ink,
+            &value,
+        );
+        y += 1.6 * em;
+    }
+}
+
+fn draw_profile(
+    canvas: &mut Canvas,
+    (left, top, width, height): (f32, f32, f32, f32),
+    em: f32,
+    fingerprint: &Fingerprint<'_>,
+    profile: &Profile,
+    exposure: f64,
+) -> Result<(), Error> {
+    let curve = |pick: fn(&crate::ProfilePoint) -> f64| {
+        profile
+            .points
+            .iter()
+            .map(|p| (p.position, pick(p) * exposure))
+            .collect::<Vec<_>>()
+    };
+    let geometry = fingerprint.scene.geometry();
+    let (terminator, rim) = geometry.lit_equator();
+    let spec = PlotSpec {
+        x_label: "position across the sphere, along the equator (the light is on the right)"
+            .to_owned(),
+        y_label: "exposed radiance, 1 = white".to_owned(),
+        y_log: true,
+        series: vec![
+            ("correct".to_owned(), curve(|p| p.right)),
+            ("buggy".to_owned(), curve(|p| p.wrong)),
+        ],
+        marks: profile
+            .crossings()
+            .into_iter()
+            .map(|(position, value)| ("equal".to_owned(), position, value * exposure))
+            .collect(),
+        ..PlotSpec::default()
+    };
+    // What happens in the last half per cent before rim and terminator would squeeze the rest.
+    let inner = |p: &&crate::ProfilePoint| p.n_dot_l > 0.004 && p.n_dot_v > 0.004;
+    let shown = || {
+        profile
+            .points
+            .iter()
+            .filter(inner)
+            .flat_map(|p| [p.right * exposure, p.wrong * exposure])
+    };
+    let high = shown().filter(|v| v.is_finite()).fold(1.0, f64::max);
+    let low = shown()
+        .filter(|v| *v > 0.0)
+        .fold(f64::INFINITY, f64::min)
+        .clamp(high * 1e-5, 0.2);
+    let chart = Chart {
+        spec: &spec,
+        theme: &DARK,
+        x_range: Some((-1.0, 1.0)),
+        y_range: Some((low * 0.8, high * 1.5)),
+        bands: if terminator > -rim {
+            vec![(-1.0, terminator.sin(), "not lit".to_owned())]
+        } else {
+            Vec::new()
+        },
+        verticals: vec![(geometry.highlight().sin(), "highlight".to_owned())],
+        em: f64::from(em),
+    };
+    chart.on_canvas(
+        canvas,
+        f64::from(left),
+        f64::from(top),
+        f64::from(width),
+        f64::from(height),
+    )
+}
+
+/// The lines at the foot: scene and exposure.
+fn notes(fingerprint: &Fingerprint<'_>, exposure: f64) -> Vec<String> {
+    let scene = &fingerprint.scene;
+    let number = |value: f64| {
+        let text = format!("{value:.4}");
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    };
+    let mut line = format!(
+        "roughness {} (α = {}) · F₀ = {} · light {}° from the eye",
+        number(scene.roughness),
+        number(scene.roughness * scene.roughness),
+        number(scene.f0),
+        number(scene.light_deg),
+    );
+    for (name, value) in &scene.others {
+        line.push_str(&format!(" · {name} = {}", number(*value)));
+    }
+    line.push_str(" · orthographic eye, distant light");
+    let share = formula::format_number(100.0 * HIGHLIGHT_SHARE, formula::Digits::Decimals(0));
+    let exposure = formula::format_number(exposure, formula::Digits::Significant(3));
+    vec![
+        line,
+        format!(
+            "exposure × {exposure}, the same for both: the brightest correct point is at {share} % of white; brighter than white is cut off"
+        ),
+    ]
+}
