@@ -3,7 +3,21 @@
 //! Deterministic, offline, linear in the length of the answer. It hears propositions (who,
 //! what, in which direction), not keywords; where it cannot tell it says so, per criterion.
 
+mod grammar;
+mod lexicon;
+mod parse;
+mod phrase;
+mod spelling;
+mod symbols;
+mod text;
+
+use std::collections::BTreeSet;
+
 use crate::rubric::Rubric;
+use lexicon::lexicon;
+use parse::{Reading, Setting};
+use phrase::{Hit, PERHAPS, Phrase, STATED};
+use text::Token;
 
 /// Changes whenever the same answer may get another verdict; kept in every log.
 pub const JUDGE_VERSION: &str = "1";
@@ -73,31 +87,254 @@ pub struct Judgement {
     pub why: Vec<Why>,
 }
 
+/// A criterion, its phrases read.
+#[derive(Clone, Debug)]
+struct Criterion {
+    id: String,
+    is_misconception: bool,
+    phrases: Vec<Phrase>,
+    against: Vec<Phrase>,
+    unless: Vec<String>,
+}
+
 /// A rubric made ready for judging.
 #[derive(Clone, Debug)]
 pub struct Judge {
     rubric: Rubric,
+    criteria: Vec<Criterion>,
+    setting: Setting,
+    /// Words of the question, five at a time.
+    echo: BTreeSet<Vec<String>>,
+}
+
+/// So many words of the question in a row are an echo of it.
+const ECHO: usize = 5;
+
+/// What was found on one criterion.
+#[derive(Clone, Debug, PartialEq)]
+enum Finding {
+    Stated(Hit),
+    Perhaps(Hit),
+    Absent,
 }
 
 impl Judge {
     /// Prepares a rubric; do it once, it costs more than judging.
     pub fn new(rubric: &Rubric) -> Judge {
+        let lexicon = lexicon();
+        let prompt = phrase::prepare(&rubric.prompt);
+        let setting = setting(parse::read(
+            lexicon,
+            prompt.clone(),
+            &Setting::default(),
+            &[],
+        ));
+        let words: Vec<String> = prompt.iter().map(|token| token.word.clone()).collect();
+        let echo = words.windows(ECHO).map(<[String]>::to_vec).collect();
+        let read = |phrases: &[String]| {
+            phrases
+                .iter()
+                .map(|text| Phrase::new(lexicon, text, &setting))
+                .collect::<Vec<_>>()
+        };
+        let expectations = rubric.expectation.iter().map(|e| Criterion {
+            id: e.id.clone(),
+            is_misconception: false,
+            phrases: read(&e.phrases),
+            against: read(&e.against),
+            unless: Vec::new(),
+        });
+        let misconceptions = rubric.misconception.iter().map(|m| Criterion {
+            id: m.id.clone(),
+            is_misconception: true,
+            phrases: read(&m.phrases),
+            against: read(&m.against),
+            unless: m.unless.clone(),
+        });
         Judge {
             rubric: rubric.clone(),
+            criteria: expectations.chain(misconceptions).collect(),
+            setting: setting.clone(),
+            echo,
         }
     }
 
     /// Judges one answer, any text of any length.
     pub fn judge(&self, answer: &str) -> Judgement {
-        let _ = answer;
-        Judgement {
-            verdict: verdict(&self.rubric, &[], &[], &[]),
+        let reading = self.read(answer);
+        let mut judgement = Judgement {
+            verdict: Verdict::Unsure,
             met: Vec::new(),
             misconceptions: Vec::new(),
             unsure: Vec::new(),
             why: Vec::new(),
+        };
+        for criterion in &self.criteria {
+            if criterion.unless.iter().any(|id| judgement.met.contains(id)) {
+                continue;
+            }
+            let (list, hit) = match criterion.find(&reading) {
+                Finding::Stated(hit) if criterion.is_misconception => {
+                    (&mut judgement.misconceptions, hit)
+                }
+                Finding::Stated(hit) => (&mut judgement.met, hit),
+                Finding::Perhaps(hit) => (&mut judgement.unsure, hit),
+                Finding::Absent => continue,
+            };
+            list.push(criterion.id.clone());
+            if let Some(quote) = answer.get(hit.range.0..hit.range.1) {
+                judgement.why.push(Why {
+                    id: criterion.id.clone(),
+                    quote: quote.to_owned(),
+                    start: hit.range.0,
+                    end: hit.range.1,
+                });
+            }
+        }
+        judgement.verdict = verdict(
+            &self.rubric,
+            &judgement.met,
+            &judgement.misconceptions,
+            &judgement.unsure,
+        );
+        judgement
+    }
+
+    fn read(&self, answer: &str) -> Reading {
+        let tokens = phrase::prepare(answer);
+        let mute = self.mute(answer, &tokens);
+        parse::read(lexicon(), tokens, &self.setting, &mute)
+    }
+
+    /// Tokens that are the question's own words, or ids of the rubric: nobody's statement.
+    fn mute(&self, answer: &str, tokens: &[Token]) -> Vec<bool> {
+        let mut mute = vec![false; tokens.len()];
+        let words: Vec<String> = tokens.iter().map(|token| token.word.clone()).collect();
+        for (at, window) in words.windows(ECHO).enumerate() {
+            if self.echo.contains(window) {
+                mute[at..at + ECHO].fill(true);
+            }
+        }
+        let ids: Vec<&str> = self
+            .criteria
+            .iter()
+            .map(|c| c.id.as_str())
+            .filter(|id| id.contains('-'))
+            .collect();
+        for (at, token) in tokens.iter().enumerate() {
+            for id in &ids {
+                let named = answer
+                    .as_bytes()
+                    .get(token.start..token.start + id.len())
+                    .is_some_and(|bytes| bytes.eq_ignore_ascii_case(id.as_bytes()));
+                if named {
+                    let end = token.start + id.len();
+                    tokens[at..]
+                        .iter()
+                        .zip(&mut mute[at..])
+                        .take_while(|(t, _)| t.start < end)
+                        .for_each(|(_, flag)| *flag = true);
+                }
+            }
+        }
+        mute
+    }
+
+    /// How each phrase of the rubric was understood, and how an answer was: for authors.
+    pub fn explain(&self, answer: &str) -> String {
+        let lexicon = lexicon();
+        let reading = self.read(answer);
+        let mut out = String::new();
+        for s in &reading.statements {
+            let name = |ids: &[u16]| {
+                ids.iter()
+                    .map(|&id| lexicon.concept(id).name.clone())
+                    .collect::<Vec<_>>()
+                    .join("|")
+            };
+            let words = answer
+                .get(reading.tokens[s.tokens.0].start..reading.tokens[s.tokens.1 - 1].end)
+                .unwrap_or_default();
+            out.push_str(&format!(
+                "  [{}{}{}] \"{words}\"",
+                if s.void { "void " } else { "" },
+                if s.denied { "not " } else { "" },
+                name(&s.concepts)
+            ));
+            for about in s.about.iter().flatten() {
+                out.push_str(&format!(" of {} ({:?})", name(&about.concepts), about.held));
+            }
+            out.push('\n');
+        }
+        for criterion in &self.criteria {
+            for phrase in &criterion.phrases {
+                let hit = phrase.said(lexicon, &reading);
+                if hit.score > 0.0 {
+                    out.push_str(&format!(
+                        "  {}: {:.2} \"{}\" = {}\n",
+                        criterion.id,
+                        hit.score,
+                        phrase.text,
+                        phrase.explain(lexicon)
+                    ));
+                }
+            }
+            for phrase in &criterion.phrases {
+                let hit = phrase.gainsaid(lexicon, &reading);
+                if hit.score > 0.0 {
+                    out.push_str(&format!(
+                        "  {} GAINSAID {:.2} \"{}\"\n",
+                        criterion.id, hit.score, phrase.text
+                    ));
+                }
+            }
+        }
+        out
+    }
+}
+
+impl Criterion {
+    fn find(&self, reading: &Reading) -> Finding {
+        let lexicon = lexicon();
+        let best = |hits: &mut dyn Iterator<Item = Hit>| {
+            hits.fold(Hit::default(), |best, hit| {
+                if hit.score > best.score { hit } else { best }
+            })
+        };
+        let said = best(&mut self.phrases.iter().map(|p| p.said(lexicon, reading)));
+        if said.score < PERHAPS {
+            return Finding::Absent;
+        }
+        let against = best(&mut self.against.iter().map(|p| p.said(lexicon, reading)));
+        let contrary = if self.is_misconception {
+            Hit::default()
+        } else {
+            best(&mut self.phrases.iter().map(|p| p.gainsaid(lexicon, reading)))
+        };
+        if against.score >= STATED || (said.score < STATED && contrary.score >= STATED) {
+            return Finding::Absent;
+        }
+        if said.score >= STATED && contrary.score < 0.85 {
+            Finding::Stated(said)
+        } else {
+            Finding::Perhaps(said)
         }
     }
+}
+
+/// The order in which a question names the things that its answers may call "the first".
+fn setting(prompt: Reading) -> Setting {
+    let mut setting = Setting::default();
+    for statement in &prompt.statements {
+        for (class, about) in statement.about.iter().enumerate() {
+            for &id in about.iter().flat_map(|about| &about.concepts) {
+                if !setting.order[class].contains(&id) {
+                    setting.order[class].push(id);
+                }
+            }
+        }
+    }
+    setting
 }
 
 /// The verdict that follows from the criteria. It is unsure only where settling the unsure

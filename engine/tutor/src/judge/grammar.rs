@@ -1,0 +1,401 @@
+//! The words that hold a sentence together: what ends a clause, denies, corrects, compares.
+
+use std::collections::BTreeSet;
+use std::sync::OnceLock;
+
+/// Words that state nothing by themselves and that no typo is read into.
+const GLUE: &str = "a an the this that these those it its he she they we you i me my his her their our your one ones some any no not nor
+is are was were be been being am do does did done doing has have had having will would can could may might must shall should
+and or but if then else so as than because since while whereas although though however therefore thus hence which who whom whose what when where why how
+of in on at to from by with without into onto over under near around along toward towards for about through between among across against within per via up down out off away back
+there here just only very too quite rather really also even still yet already again always never ever often much many more most less least few little lot lots
+get gets got getting give gives given giving go goes going went come comes coming came make makes made making take takes taken taking see sees seen seeing look looks looking
+become becomes becoming became seem seems appear appears appearing show shows shown showing say says said saying think thinks thought believe guess suppose expect expects expected know knows mean means meaning
+would like way ways thing things stuff kind sort bit well ok okay yes basically actually honestly probably maybe perhaps simply pretty
+first second third other another both each every all same such own new old good bad different true real
+now later before after once twice until during
+let us put puts use uses used using find finds found call called tell tells told want wants need needs try tries
+i'm dont im ive id ill youd youre were hes shes theyre whats
+physical physically everything anything nothing something someone nobody none neither either
+value number numbers result answer question term terms point points part parts case cases example
+left right top bottom side time times place places world life heart
+whole half full high low long short big small large great
+stay stays stayed remain remains keep keeps kept hold holds
+therefore moreover furthermore besides instead indeed certainly clearly obviously exactly nearly almost roughly approximately
+have having because course fact sense idea reason
+their there these where which while whole white wrong write written writes
+thing think thank third those three throw thrown
+minor manor sport sports spate spite state states stake smell spell shell steal stall still skill tickle trick stick sticks
+shade shades shading shader shaders shape shared share sharing
+light lights lighting lit sight night might tight right fight
+water matter later latter letter better bitter butter
+price prize prime print point paint plant plane plate place plays
+wander wonder wider wilder winder window
+range change chance charge large larger
+frame fraction function form formula forms
+learn learned lesson lessons teacher please mark complete marked verdict pass passes passed correct grade score
+model models world word words work works worked working book books class
+color colour colors colours image images screen program code file line lines variable
+friend people person human machine computer student
+start starts started end ends ended begin begins stop stops
+move moves moved turn turns turned run runs running
+plus minus equal equals times divide
+early earth error errors even event
+power powers energy force physics math maths mathematics
+camera eye eyes viewer view views viewing angle angles vector vectors normal normals direction directions
+shader unreal blender unity engine texture textures material materials
+could would should shouldn couldn wouldn
+really ready read reads reading reader
+ball balls sphere spheres bulb bulbs lamp lamps
+paper pepper proper properly prefer
+quick quiet quite quit
+small smell smart
+clean clear close cloud
+trail train trial
+steal steel steep steer stem step
+moon noon soon mood moody
+grain grains green great greet
+inner under upper outer other";
+
+/// Whether a word is part of the language's machinery, or so common that no typo means it.
+pub fn is_known(word: &str) -> bool {
+    static KNOWN: OnceLock<BTreeSet<&'static str>> = OnceLock::new();
+    KNOWN
+        .get_or_init(|| GLUE.split_whitespace().collect())
+        .contains(word)
+}
+
+/// Words that hold a sentence together: where there are none, there is only a list.
+pub fn is_glue(word: &str) -> bool {
+    matches!(
+        word,
+        "a" | "an"
+            | "the"
+            | "this"
+            | "that"
+            | "it"
+            | "its"
+            | "is"
+            | "are"
+            | "was"
+            | "be"
+            | "as"
+            | "so"
+            | "because"
+            | "since"
+            | "but"
+            | "while"
+            | "whereas"
+            | "than"
+            | "of"
+            | "in"
+            | "on"
+            | "at"
+            | "to"
+            | "from"
+            | "by"
+            | "with"
+            | "for"
+            | "there"
+            | "here"
+            | "where"
+            | "when"
+            | "which"
+            | "if"
+            | "then"
+            | "not"
+            | "no"
+            | "has"
+            | "have"
+            | "gets"
+            | "get"
+            | "you"
+            | "i"
+            | "we"
+            | "one"
+            | "will"
+            | "would"
+            | "should"
+            | "can"
+            | "does"
+            | "do"
+            | "too"
+            | "more"
+            | "towards"
+            | "toward"
+            | "and"
+            | "or"
+            | "->"
+            | "="
+            | "~"
+            | ";"
+            | "--"
+            | "goes"
+            | "becomes"
+            | "means"
+            | "only"
+            | "just"
+            | "all"
+            | "into"
+            | "over"
+            | "like"
+    )
+}
+
+/// Words that deny what follows in their clause.
+pub fn is_negator(word: &str) -> bool {
+    matches!(
+        word,
+        "not"
+            | "no"
+            | "never"
+            | "neither"
+            | "nor"
+            | "none"
+            | "nothing"
+            | "nobody"
+            | "without"
+            | "hardly"
+            | "barely"
+            | "lacks"
+            | "unlike"
+            | "nowhere"
+            | "wrongly"
+    )
+}
+
+/// Words that end the reach of a denial.
+pub fn ends_denial(word: &str) -> bool {
+    matches!(
+        word,
+        "but"
+            | "because"
+            | "since"
+            | "so"
+            | "while"
+            | "whereas"
+            | "although"
+            | "though"
+            | "however"
+            | "instead"
+            | "then"
+            | "hence"
+            | "therefore"
+            | "thus"
+            | "as"
+            | "yet"
+            | "rather"
+            | "just"
+            | "only"
+            | "even"
+    )
+}
+
+/// Words that begin another clause.
+pub fn begins_clause(word: &str) -> bool {
+    matches!(
+        word,
+        "but"
+            | "because"
+            | "since"
+            | "so"
+            | "while"
+            | "whereas"
+            | "although"
+            | "though"
+            | "however"
+            | "therefore"
+            | "thus"
+            | "hence"
+            | "then"
+            | "yet"
+            | "whilst"
+            | "if"
+            | "unless"
+            | "which"
+            | "nevertheless"
+            | "otherwise"
+            | "meanwhile"
+            | "->"
+            | "when"
+            | "where"
+            | "that"
+            | "until"
+    )
+}
+
+/// Forms of "to be" and its like, between a subject and what is said of it.
+pub fn is_copula(word: &str) -> bool {
+    matches!(
+        word,
+        "is" | "are"
+            | "was"
+            | "were"
+            | "be"
+            | "being"
+            | "been"
+            | "becomes"
+            | "become"
+            | "became"
+            | "gets"
+            | "get"
+            | "looks"
+            | "look"
+            | "appears"
+            | "appear"
+            | "stays"
+            | "stay"
+            | "seems"
+            | "turns"
+            | "goes"
+            | "go"
+            | "will"
+            | "would"
+            | "comes"
+            | "come"
+            | "remains"
+            | "remain"
+            | "="
+            | "->"
+            | "~"
+            | ";"
+            | "too"
+            | "very"
+            | "way"
+            | "so"
+            | "much"
+            | "far"
+            | "more"
+            | "the"
+            | "really"
+            | "also"
+            | "both"
+            | "has"
+            | "have"
+            | "a"
+            | "an"
+            | "all"
+            | "itself"
+            | "coming"
+            | "getting"
+            | "looking"
+            | "to"
+            | "should"
+            | "can"
+            | "could"
+            | "must"
+            | "does"
+            | "do"
+    )
+}
+
+/// Words that ask, at the beginning of a question.
+pub fn asks(word: &str) -> bool {
+    matches!(
+        word,
+        "what"
+            | "why"
+            | "how"
+            | "when"
+            | "where"
+            | "who"
+            | "which"
+            | "does"
+            | "do"
+            | "is"
+            | "are"
+            | "can"
+            | "could"
+            | "would"
+            | "should"
+            | "will"
+            | "did"
+            | "has"
+            | "have"
+            | "shall"
+            | "may"
+    )
+}
+
+/// Expressions after which a learner takes back what he just said.
+pub const CORRECTIONS: &[&[&str]] = &[
+    &["wait"],
+    &["but", "no"],
+    &["no", "wait"],
+    &["scratch", "that"],
+    &["strike", "that"],
+    &["correction"],
+    &["i", "mean"],
+    &["or", "was", "it"],
+    &["or", "is", "it"],
+    &["sorry"],
+    &["actually", "no"],
+    &["no", ",", "actually"],
+    &["hmm"],
+    &["hm"],
+    &["oops"],
+    &["on", "second", "thought"],
+    &["on", "reflection"],
+    &["or", "rather"],
+    &["no", ","],
+    &["nope"],
+    &["actually"],
+    &["i", "take", "that", "back"],
+    &["forget", "that"],
+    &["other", "way", "around"],
+    &["other", "way", "round"],
+    &["vice", "versa"],
+    &["reversed"],
+    &["non"],
+];
+
+/// Expressions that call what was just said wrong.
+pub const DISMISSALS: &[&[&str]] = &[
+    &["that", "would", "be", "silly"],
+    &["would", "be", "wrong"],
+    &["would", "be", "silly"],
+    &["would", "be", "a", "mistake"],
+    &["that", "is", "wrong"],
+    &["that", "is", "false"],
+    &["which", "is", "wrong"],
+    &["which", "is", "false"],
+    &["this", "is", "wrong"],
+    &["is", "not", "true"],
+    &["is", "a", "myth"],
+    &["is", "nonsense"],
+    &["classic", "error"],
+    &["common", "mistake"],
+    &["classic", "mistake"],
+    &["is", "a", "misconception"],
+    &["are", "the", "classic"],
+];
+
+/// Expressions that report what somebody else might say.
+pub const REPORTS: &[&[&str]] = &[
+    &["you", "might", "think"],
+    &["you", "would", "think"],
+    &["you", "may", "think"],
+    &["one", "might", "think"],
+    &["one", "would", "think"],
+    &["one", "might", "expect"],
+    &["you", "might", "expect"],
+    &["you", "would", "expect"],
+    &["people", "say"],
+    &["some", "say"],
+    &["people", "think"],
+    &["some", "people"],
+    &["some", "would"],
+    &["wrong", "to", "say"],
+    &["wrong", "to", "think"],
+    &["false", "that"],
+    &["myth", "that"],
+    &["mistake", "to"],
+    &["instead", "of"],
+    &["rather", "than"],
+    &["anything", "but"],
+    &["far", "from"],
+    &["in", "place", "of"],
+    &["as", "opposed", "to"],
+    &["fails", "to"],
+    &["fail", "to"],
+];
