@@ -28,7 +28,10 @@ impl Lesson {
             .shown
             .as_ref()
             .map_or(Digits::Significant(4), |shown| digits_of(shown));
-        let name = self.spelled(&line.name);
+        let name = match &line.ask {
+            Some(ask) => ask.text.clone(),
+            None => self.spelled(&line.name),
+        };
         let mut through = known.clone();
         if let Ok(value) = self.library.eval(&line.is.expr, &known) {
             through.insert(line.name.text.clone(), value);
@@ -49,9 +52,17 @@ impl Lesson {
         digits: Digits,
         says: Vec<Inline>,
     ) -> Block {
+        // The formula first, then the numbers; but not a name that equals itself.
+        let symbols = self.library.unicode(&is.expr);
         let (lines, value) = match self.library.substitution(&is.expr, known, digits) {
-            Ok(substitution) => (substitution.lines, substitution.shown),
-            Err(_) => (vec![self.library.unicode(&is.expr)], "undefined".to_owned()),
+            Ok(substitution) => {
+                let numbers = substitution.lines.into_iter();
+                let lines = std::iter::once(symbols.clone())
+                    .filter(|line| line != name)
+                    .chain(numbers.filter(|line| *line != symbols));
+                (lines.collect(), substitution.shown)
+            }
+            Err(_) => (vec![symbols], "undefined".to_owned()),
         };
         Block::Derivation {
             name: name.to_owned(),
