@@ -51,12 +51,13 @@ impl Session {
                 item,
                 round,
                 step,
+                seed: _,
                 given,
                 text,
                 result,
                 mistake,
+                named,
                 says,
-                ..
             } => {
                 self.turn(
                     item,
@@ -66,6 +67,7 @@ impl Session {
                         text: text.clone(),
                         result: result.clone(),
                         mistake: mistake.clone(),
+                        named: *named,
                         says: says.clone(),
                     },
                 );
@@ -253,8 +255,9 @@ impl Session {
         self.finished = None;
         let screen = self.path[start].clone();
         self.go_to(screen);
-        for screen in self.path[..start].to_vec() {
-            self.visit(&screen);
+        let seen = self.trail[..start].to_vec();
+        for screen in &seen {
+            self.visit(screen);
         }
     }
 
@@ -300,46 +303,49 @@ impl Session {
 
     /// The screen after one, by what has happened on it.
     pub(super) fn after(&self, at: &Screen) -> Option<Screen> {
-        let base = |at: &Screen| {
-            let index = self.path.iter().position(|screen| screen == at)?;
-            self.path.get(index + 1).cloned()
-        };
         let (Screen::Explain { item, .. } | Screen::Reteach { item, .. }) = at else {
-            return base(at);
+            return self.after_item(at);
         };
-        let first = Screen::Explain {
-            item: item.clone(),
-            attempt: 1,
-        };
-        let again = Screen::Explain {
+        let again = || Screen::Explain {
             item: item.clone(),
             attempt: 2,
         };
         let (Some(question), Some(explain)) = (self.questions.get(item), self.lesson.explain(item))
         else {
-            return base(&first);
+            return self.after_item(at);
         };
         let reteach = |index: usize| {
-            let name = question
-                .reteaches(&self.lesson, explain)
-                .get(index)?
-                .clone();
+            let names = question.reteaches(&self.lesson, explain);
             Some(Screen::Reteach {
                 item: item.clone(),
-                name,
+                name: names.get(index)?.clone(),
             })
         };
         match at {
             Screen::Explain { attempt: 1, .. } if question.wants_second_try() => {
-                Some(reteach(0).unwrap_or(again))
+                Some(reteach(0).unwrap_or_else(again))
             }
             Screen::Reteach { name, .. } => {
                 let names = question.reteaches(&self.lesson, explain);
                 let here = names.iter().position(|other| other == name);
-                Some(here.and_then(|here| reteach(here + 1)).unwrap_or(again))
+                let next = here.and_then(|here| reteach(here + 1));
+                Some(next.unwrap_or_else(again))
             }
-            _ => base(&first),
+            _ => self.after_item(at),
         }
+    }
+
+    /// The screen after one and all that may follow from it.
+    pub(super) fn after_item(&self, at: &Screen) -> Option<Screen> {
+        let at = match at {
+            Screen::Explain { item, .. } | Screen::Reteach { item, .. } => &Screen::Explain {
+                item: item.clone(),
+                attempt: 1,
+            },
+            other => other,
+        };
+        let index = self.path.iter().position(|screen| screen == at)?;
+        self.path.get(index + 1).cloned()
     }
 
     /// The first screen of the next stage on the path.

@@ -80,8 +80,8 @@ impl Session {
         for event in &decided.events {
             self.apply(event);
         }
-        if *self.here() == Screen::Result && self.finished.is_none() {
-            let (grade, words) = self.verdict();
+        let ended = (*self.here() == Screen::Result).then(|| self.verdict());
+        if let Some((grade, words)) = ended.filter(|ended| self.finished.as_ref() != Some(ended)) {
             let event = Event::Finished { grade, words };
             self.apply(&event);
             decided.events.push(event);
@@ -195,11 +195,10 @@ impl Session {
         let to = match here {
             Screen::Result => return Decided::note("Nothing is left to skip."),
             Screen::Why | Screen::Step(_) | Screen::Worked => self.after_stage(here),
-            Screen::Faded(_)
-            | Screen::Practice(_)
-            | Screen::Retest(_)
-            | Screen::Explain { .. }
-            | Screen::Reteach { .. } => self.after(here),
+            Screen::Explain { .. } => self.after_item(here),
+            Screen::Faded(_) | Screen::Practice(_) | Screen::Retest(_) | Screen::Reteach { .. } => {
+                self.after(here)
+            }
         };
         let mut decided = self.move_to(to);
         let left_out = Event::Skip {
@@ -262,9 +261,9 @@ impl Session {
             (Open::Text(explain, _), Screen::Explain { attempt, .. }) if !empty => {
                 Decided::event(explained(explain, *attempt, text))
             }
-            (Open::Step(..) | Open::Text(..), _) => {
-                Decided::note("Nothing was typed, so nothing counts.")
-            }
+            // An empty line goes on, where there is a way on.
+            (Open::Step(..), _) => self.next(),
+            (Open::Text(..), _) => Decided::note("Nothing was typed, so nothing counts."),
             (Open::Marks(..), _) => {
                 Decided::note("Mark each point first: does your answer say it?")
             }
@@ -282,6 +281,8 @@ impl Session {
         let named = (step != WHOLE).then_some(step);
         let earlier = problem.earlier(step);
         let marking = exercise::mark(&self.lesson, exercise, draw, named, &text, &earlier);
+        let mistake = marking.mistake();
+        let by_author = |id: &str| exercise.mistakes.iter().any(|named| named.id.text == id);
         Decided::event(Event::Attempt {
             item,
             round,
@@ -290,7 +291,8 @@ impl Session {
             given: draw.given.clone(),
             text,
             result: marking.result().to_owned(),
-            mistake: marking.mistake().map(str::to_owned),
+            named: mistake.is_some_and(by_author),
+            mistake: mistake.map(str::to_owned),
             says: marking.says().to_owned(),
         })
     }

@@ -167,6 +167,9 @@ pub enum Event {
         /// The known mistake, where it is one.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         mistake: Option<String>,
+        /// The author names that mistake, so it is noted as a slip.
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        named: bool,
         /// What the learner was told.
         says: String,
     },

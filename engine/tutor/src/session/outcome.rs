@@ -100,14 +100,15 @@ impl Session {
 
     fn slips(&self) -> Vec<NotedSlip> {
         let mut slips: Vec<NotedSlip> = Vec::new();
-        let questions = self.path.iter().filter_map(|screen| match screen {
+        let computed = self.problems.values().flat_map(|problem| problem.slips());
+        let explained = self.path.iter().filter_map(|screen| match screen {
             Screen::Explain { item, .. } => self.questions.get(item),
             _ => None,
         });
-        for id in questions
+        let explained = explained
             .flat_map(|question| &question.tries)
-            .flat_map(|tried| &tried.result().slips)
-        {
+            .flat_map(|tried| &tried.result().slips);
+        for id in explained.chain(computed) {
             if slips.iter().all(|slip| slip.id != *id) {
                 slips.push(NotedSlip {
                     id: id.clone(),
@@ -320,10 +321,10 @@ impl Session {
             .iter()
             .map(|slip| {
                 let says = all().find(|m| m.id == slip.id).map(|m| m.says.as_str());
-                vec![text(format!(
-                    "You said something like: “{}” A later lesson takes it up.",
-                    says.unwrap_or(&slip.id)
-                ))]
+                vec![text(match says {
+                    Some(says) => format!("You said something like: “{says}”"),
+                    None => format!("A slip in the numbers: {}.", slip.id.replace('-', " ")),
+                })]
             })
             .collect()
     }

@@ -33,6 +33,7 @@ pub(super) enum Turn {
         text: String,
         result: String,
         mistake: Option<String>,
+        named: bool,
         says: String,
     },
     /// The step is left as it is.
@@ -144,10 +145,23 @@ impl Problem {
         !self.turns.is_empty()
     }
 
-    /// The answer that the exercise is about was right in the end.
+    /// The answer that the exercise is about was right in the end, if only to a few digits.
     pub(super) fn is_solved(&self) -> bool {
+        let near = |turn: &Turn| matches!(turn, Turn::Attempt { result, .. } if result == "precision");
         let last = self.asked.last();
-        last.is_some_and(|step| self.turns_on(step).any(Turn::is_right))
+        last.is_some_and(|step| self.turns_on(step).any(|turn| turn.is_right() || near(turn)))
+    }
+
+    /// Mistakes made that the author names.
+    pub(super) fn slips(&self) -> impl Iterator<Item = &String> {
+        self.turns.iter().filter_map(|turn| match turn {
+            Turn::Attempt {
+                mistake,
+                named: true,
+                ..
+            } => mistake.as_ref(),
+            Turn::Attempt { .. } | Turn::Hint { .. } | Turn::GoneOn { .. } => None,
+        })
     }
 
     /// No step needed a second answer or a hint.

@@ -160,9 +160,14 @@ fn slips_of<'a>(records: impl Iterator<Item = &'a Record>) -> Vec<NotedSlip> {
     let mut all: Vec<NotedSlip> = Vec::new();
     for record in records {
         for entry in &record.entries {
-            let (Event::Explained { slips, .. } | Event::SelfMarked { slips, .. }) = &entry.event
-            else {
-                continue;
+            let slips = match &entry.event {
+                Event::Explained { slips, .. } | Event::SelfMarked { slips, .. } => slips.iter(),
+                Event::Attempt {
+                    mistake: Some(mistake),
+                    named: true,
+                    ..
+                } => std::slice::from_ref(mistake).iter(),
+                _ => continue,
             };
             for id in slips {
                 let slip = NotedSlip {

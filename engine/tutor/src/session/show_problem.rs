@@ -163,6 +163,7 @@ fn said(lesson: &Lesson, exercise: &Exercise, problem: &Problem, turn: &Turn) ->
             result,
             mistake,
             says,
+            ..
         } => {
             let answer = vec![text("You: "), Inline::Code(one_line(typed))];
             let (tone, title) = title(result, mistake.as_deref());
