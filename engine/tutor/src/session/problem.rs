@@ -147,9 +147,13 @@ impl Problem {
 
     /// The answer that the exercise is about was right in the end, if only to a few digits.
     pub(super) fn is_solved(&self) -> bool {
-        let near = |turn: &Turn| matches!(turn, Turn::Attempt { result, .. } if result == "precision");
+        let near =
+            |turn: &Turn| matches!(turn, Turn::Attempt { result, .. } if result == "precision");
         let last = self.asked.last();
-        last.is_some_and(|step| self.turns_on(step).any(|turn| turn.is_right() || near(turn)))
+        last.is_some_and(|step| {
+            self.turns_on(step)
+                .any(|turn| turn.is_right() || near(turn))
+        })
     }
 
     /// Mistakes made that the author names.
