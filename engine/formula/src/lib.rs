@@ -33,6 +33,7 @@ mod lex;
 mod library;
 mod lower;
 mod mutant;
+mod mutate;
 mod parse;
 mod pretty;
 mod program;

@@ -15,7 +15,7 @@ impl Library {
 /// How a formula is written.
 pub(crate) struct Board<'a> {
     library: &'a Library,
-    /// Significant digits of numbers; as typed where none are asked for.
+    /// Significant digits of numbers that nobody typed.
     digits: Option<u32>,
 }
 
@@ -100,8 +100,8 @@ impl<'a> Board<'a> {
 
     fn number(&self, value: f64, text: &str) -> (String, u8) {
         let spelled = match self.digits {
-            Some(digits) => short(value, digits),
-            None => text.to_string(),
+            Some(digits) if text.is_empty() => short(value, digits),
+            _ => text.to_string(),
         };
         let text = spelled.replace('-', "−");
         match text.split_once(['e', 'E']) {

@@ -3,7 +3,7 @@
 use crate::builtin::Builtin;
 use crate::digits::{Digits, format_number, rounded, significant_digits};
 use crate::error::Error;
-use crate::expr::{Arg, BinaryOp, Expr, Node, plain};
+use crate::expr::{Arg, BinaryOp, Expr, Node};
 use crate::library::{Library, Values};
 use crate::pretty::Board;
 use crate::scope::{Binding, Callee, Convert, Found, Scope, bind, twin};
@@ -206,11 +206,12 @@ fn converted(source: Expr, convert: Convert) -> Expr {
     }
 }
 
-/// A number that may be negative, as one leaf.
+/// A number that was computed or given and may be negative, as one leaf. Without a
+/// spelling of its own it is rounded for the board.
 fn signed(value: f64) -> Expr {
     Expr::made(Node::Number {
         value,
-        text: plain(value),
+        text: String::new(),
     })
 }
 
@@ -286,7 +287,9 @@ impl Lines<'_> {
 }
 
 fn shorten(expr: &mut Expr, digits: u32) {
-    if let Node::Number { value, .. } = &mut expr.node {
+    if let Node::Number { value, text } = &mut expr.node
+        && text.is_empty()
+    {
         *value = rounded(*value, digits);
     }
     for child in expr.children_mut() {
