@@ -7,7 +7,7 @@
 //! For all of them: `n_dot_h < 0` gives 0, `n_dot_h > 1` counts as 1, and `alpha = 0` gives
 //! the limit, +∞ at `n_dot_h = 1` and 0 elsewhere.
 
-use crate::real::{Real, lit};
+use crate::real::{Real, lit, one_minus_square, quotient, zero_unless_nan};
 use crate::term::{ALPHA, N_DOT_H, Param, Term, entry};
 use std::f64::consts::FRAC_1_PI;
 
@@ -60,15 +60,20 @@ pub fn d_ggx_aniso<R: Real>(h_x: R, h_y: R, h_z: R, alpha_x: R, alpha_y: R) -> R
     if h_z < lit(0.0) {
         return lit(0.0);
     }
+    let width = |alpha: R| alpha.abs().at_most(lit(R::LARGE));
+    let (alpha_x, alpha_y) = (width(alpha_x), width(alpha_y));
+    // Without width along an axis no facet leans along it: 0, or ∞ where none needs to.
     let over = |h: R, alpha: R| if h == lit(0.0) { h } else { h / alpha };
     let (x, y) = (over(h_x, alpha_x), over(h_y, alpha_y));
     let t = x * x + y * y + h_z * h_z;
-    // Divided one by one: α_x α_y t² overflows where the quotient does not.
-    if t.is_finite() || t.is_nan() {
-        lit::<R>(FRAC_1_PI) / (alpha_x * t) / (alpha_y * t)
-    } else {
-        lit(0.0)
+    if t > lit(0.0) && !t.is_finite() {
+        return lit(0.0);
     }
+    if alpha_x == lit(0.0) || alpha_y == lit(0.0) {
+        return t + lit::<R>(1.0) / lit(0.0);
+    }
+    // Divided one by one: α_x α_y t² overflows where the quotient does not.
+    lit::<R>(FRAC_1_PI) / (alpha_x * t) / (alpha_y * t)
 }
 
 const H_X: Param = Param {
@@ -112,23 +117,6 @@ const D_GGX_ANISO: Term = entry!(
 }")
 );
 
-/// tan²θ/α² of a cosine as an unevaluated sum of two numbers, θ and α not 0.
-///
-/// It stands in an exponent, where a relative error e of x becomes x·e: one rounding at
-/// x = 80 costs 80 ulps of the result. So every rounding error on the way is kept.
-#[inline(always)]
-pub(crate) fn tan2_over_alpha2<R: Real>(c: R, alpha: R) -> (R, R) {
-    let (c2, c2_low) = c.two_prod(c);
-    let (sin2, sin2_low) = lit::<R>(1.0).two_sum(-c2);
-    let sin2_low = sin2_low - c2_low;
-    let (ac, ac_low) = alpha.two_prod(c);
-    let (d, d_low) = ac.two_prod(ac);
-    let d_low = d_low + lit::<R>(2.0) * ac * ac_low;
-    let x = sin2 / d;
-    let (back, back_low) = x.two_prod(d);
-    (x, ((sin2 - back) - back_low + sin2_low - x * d_low) / d)
-}
-
 /// Beckmann: D = exp(−tan²θ/α²) / (π α² cos⁴θ), a Gaussian in the slopes.
 ///
 /// Beckmann and Spizzichino 1963; Walter et al. 2007, eq. 25. Units 1/sr.
@@ -142,14 +130,18 @@ pub fn d_beckmann<R: Real>(n_dot_h: R, alpha: R) -> R {
     if c == lit(1.0) {
         return t * t * lit(FRAC_1_PI);
     }
-    let (x, x_low) = tan2_over_alpha2(c, alpha);
+    // tan²θ/α² as an unevaluated sum: in an exponent, one rounding at 80 costs 80 ulps.
+    let (ac, ac_low) = alpha.two_prod(c);
+    let (d, d_low) = ac.two_prod(ac);
+    let alpha2_cos2 = (d, d_low + lit::<R>(2.0) * ac * ac_low);
+    let (x, x_low) = quotient(one_minus_square(c), alpha2_cos2);
     // Also where x is not finite: far below the smallest number either way.
     if x < lit(760.0) {
-        (-x).exp() * (lit::<R>(1.0) - x_low) * t * t * lit(FRAC_1_PI)
-    } else if (n_dot_h + alpha).is_nan() {
-        n_dot_h + alpha
+        // Squared last, so that exp does not underflow before it meets 1/α.
+        let root = (lit::<R>(-0.5) * x).exp() * t;
+        root * root * (lit::<R>(1.0) - x_low) * lit(FRAC_1_PI)
     } else {
-        lit(0.0)
+        zero_unless_nan([n_dot_h, alpha])
     }
 }
 
@@ -180,25 +172,26 @@ pub fn d_blinn_phong<R: Real>(n_dot_h: R, alpha: R) -> R {
     }
     let c = n_dot_h.at_most(lit(1.0));
     let t = lit::<R>(1.0) / alpha;
-    let peak = t * t * lit(FRAC_1_PI);
     if c == lit(1.0) {
-        return peak;
+        return t * t * lit(FRAC_1_PI);
     }
-    // 2/α² − 2 as an unevaluated sum: as an exponent its rounding error is multiplied by ln c.
-    let (a2, a2_low) = alpha.two_prod(alpha);
-    let q = lit::<R>(2.0) / a2;
-    let (back, back_low) = q.two_prod(a2);
-    let q_low = ((lit::<R>(2.0) - back) - back_low - q * a2_low) / a2;
-    let (n, n_low) = q.two_sum(lit(-2.0));
-    let n_low = n_low + q_low;
-    let power = c.powf(n);
-    if power > lit(0.0) && n_low.is_finite() && power.is_finite() {
-        power * (lit::<R>(1.0) + n_low * c.ln()) * peak
-    } else if power == lit(0.0) {
-        power
+    // n/2 = 1/α² − 1 as an unevaluated sum: its rounding error is multiplied by ln c.
+    let (q, q_low) = quotient((lit(1.0), lit(0.0)), alpha.two_prod(alpha));
+    let (n_2, n_2_low) = q.two_sum(lit(-1.0));
+    // Squared last, so that the power does not underflow before it meets 1/α.
+    let power = c.powf(n_2);
+    // At its limits, 0 and ∞ (and NaN), the power decides alone.
+    if power == lit(0.0) || !power.is_finite() {
+        return power;
+    }
+    let root = power * t;
+    let correction = lit::<R>(2.0) * (n_2_low + q_low) * c.ln();
+    let correction = if correction.is_finite() {
+        correction
     } else {
-        power * peak
-    }
+        lit(0.0)
+    };
+    root * root * (lit::<R>(1.0) + correction) * lit(FRAC_1_PI)
 }
 
 const D_BLINN_PHONG: Term = entry!(

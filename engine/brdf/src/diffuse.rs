@@ -1,10 +1,10 @@
 //! Diffuse models, in 1/sr: multiply by N·L and the light.
 //!
-//! `n_dot_l` or `n_dot_v` at or below 0 gives 0, but for Lambert, which has no cosines.
+//! `n_dot_l` or `n_dot_v` at or below 0 gives 0, but for Lambert, which has no cosines. Other
+//! arguments are brought into their range; an albedo above 1 is taken as it is, except by EON.
 
-use crate::fresnel::unit;
 use crate::real::{Real, lit};
-use crate::smith::sine;
+use crate::smith::{above_horizon, sine};
 use crate::term::{
     ALBEDO, ALPHA, COS_PHI, L_DOT_V, N_DOT_L, N_DOT_V, Param, ROUGHNESS, SIGMA, Term, V_DOT_H,
     entry,
@@ -23,7 +23,7 @@ pub(crate) const TERMS: &[Term] = &[
 /// Lambert: albedo/π, the same in every direction.
 #[inline(always)]
 pub fn diffuse_lambert<R: Real>(albedo: R) -> R {
-    albedo * lit(FRAC_1_PI)
+    albedo.at_least(lit(0.0)) * lit(FRAC_1_PI)
 }
 
 const DIFFUSE_LAMBERT: Term = entry!(
@@ -42,13 +42,13 @@ const DIFFUSE_LAMBERT: Term = entry!(
 /// Burley 2012, eq. 4. Reciprocal; gains energy for rough surfaces. It takes roughness, not α.
 #[inline(always)]
 pub fn diffuse_disney<R: Real>(n_dot_l: R, n_dot_v: R, v_dot_h: R, roughness: R, albedo: R) -> R {
-    if n_dot_l <= lit(0.0) || n_dot_v <= lit(0.0) {
-        return lit(0.0);
-    }
-    let one = lit::<R>(1.0);
-    let retro = lit::<R>(2.0) * roughness * v_dot_h * v_dot_h - lit(0.5);
-    let factor = |c: R| one + retro * (one - unit(c)).pow5();
-    albedo * lit(FRAC_1_PI) * factor(n_dot_l) * factor(n_dot_v)
+    above_horizon(n_dot_l, n_dot_v, |l, v| {
+        let one = lit::<R>(1.0);
+        let retro =
+            lit::<R>(2.0) * roughness.clamp_unit() * v_dot_h.clamp_unit().squared() - lit(0.5);
+        let factor = |c: R| one + retro * (one - c).pow5();
+        diffuse_lambert(albedo) * factor(l) * factor(v)
+    })
 }
 
 const DIFFUSE_DISNEY: Term = entry!(
@@ -67,10 +67,9 @@ const DIFFUSE_DISNEY: Term = entry!(
 }")
 );
 
-/// The smaller and the larger of two cosines, at most 1.
+/// The smaller and the larger of two cosines.
 #[inline(always)]
 fn ordered<R: Real>(l: R, v: R) -> (R, R) {
-    let (l, v) = (l.at_most(lit(1.0)), v.at_most(lit(1.0)));
     if l < v { (l, v) } else { (v, l) }
 }
 
@@ -82,15 +81,13 @@ fn ordered<R: Real>(l: R, v: R) -> (R, R) {
 /// interreflection.
 #[inline(always)]
 pub fn diffuse_oren_nayar<R: Real>(n_dot_l: R, n_dot_v: R, cos_phi: R, sigma: R, albedo: R) -> R {
-    if n_dot_l <= lit(0.0) || n_dot_v <= lit(0.0) {
-        return lit(0.0);
-    }
-    let (low, high) = ordered(n_dot_l, n_dot_v);
-    let sin_tan = sine(low) * sine(high) / high;
-    let s2 = sigma * sigma;
-    let a = oren_nayar_a(s2);
-    let b = lit::<R>(0.45) * (s2 / (s2 + lit(0.09)));
-    albedo * lit(FRAC_1_PI) * (a + b * cos_phi.at_least(lit(0.0)) * sin_tan)
+    above_horizon(n_dot_l, n_dot_v, |l, v| {
+        let (low, high) = ordered(l, v);
+        let sin_tan = (sine(low) * sine(high) / high).at_most(lit(R::LARGE));
+        let s2 = sigma.abs().at_most(lit(R::LARGE)).squared();
+        let b = lit::<R>(0.45) * (s2 / (s2 + lit(0.09)));
+        diffuse_lambert(albedo) * (oren_nayar_a(s2) + b * cos_phi.clamp_unit() * sin_tan)
+    })
 }
 
 /// 1 − 0.5 σ²/(σ² + 0.33) of σ², without the difference.
@@ -131,32 +128,32 @@ pub fn diffuse_oren_nayar_full<R: Real>(
     sigma: R,
     albedo: R,
 ) -> R {
-    if n_dot_l <= lit(0.0) || n_dot_v <= lit(0.0) {
-        return lit(0.0);
-    }
-    let one = lit::<R>(1.0);
-    let (low, high) = ordered(n_dot_l, n_dot_v);
-    let (sin_alpha, sin_beta) = (sine(low), sine(high));
-    // Both angles as shares of a right angle.
-    let alpha = low.acos() * lit(FRAC_2_PI);
-    let beta = high.acos() * lit(FRAC_2_PI);
-    let tan_beta = sin_beta / high;
-    let tan_half = (sin_alpha + sin_beta) / (low + high);
-    let s2 = sigma * sigma;
-    let k = s2 / (s2 + lit(0.09));
-    let c1 = oren_nayar_a(s2);
-    let c2 = lit::<R>(0.45)
-        * k
-        * if cos_phi >= lit(0.0) {
+    above_horizon(n_dot_l, n_dot_v, |l, v| {
+        let one = lit::<R>(1.0);
+        let (low, high) = ordered(l, v);
+        let cos_phi = cos_phi.at_least(-one).at_most(one);
+        let albedo = albedo.at_least(lit(0.0));
+        let (sin_alpha, sin_beta) = (sine(low), sine(high));
+        let tan_beta = (sin_beta / high).at_most(lit(R::LARGE));
+        let tan_half = ((sin_alpha + sin_beta) / (low + high)).at_most(lit(R::LARGE));
+        // The angles as shares of a right angle, and the complement of β.
+        let alpha = low.acos() * lit(FRAC_2_PI);
+        let beta = high.acos() * lit(FRAC_2_PI);
+        let u = high.asin() * lit(FRAC_2_PI);
+        let s2 = sigma.abs().at_most(lit(R::LARGE)).squared();
+        let k = s2 / (s2 + lit(0.09));
+        let bracket = if cos_phi >= lit(0.0) {
             sin_alpha
         } else {
-            let u = high.asin() * lit(FRAC_2_PI);
             u * (lit::<R>(3.0) - lit::<R>(3.0) * u + u * u) - low * low / (one + sin_alpha)
         };
-    let c3 = lit::<R>(0.125) * k * (alpha * beta).squared();
-    let direct = c1 + cos_phi * c2 * tan_beta + (one - cos_phi.abs()) * c3 * tan_half;
-    let indirect = lit::<R>(0.17) * (s2 / (s2 + lit(0.13))) * (one - cos_phi * beta * beta);
-    albedo * lit(FRAC_1_PI) * (direct + albedo * indirect)
+        let c1 = oren_nayar_a(s2);
+        let c2 = lit::<R>(0.45) * k * bracket;
+        let c3 = lit::<R>(0.125) * k * (alpha * beta).squared();
+        let direct = c1 + cos_phi * c2 * tan_beta + (one - cos_phi.abs()) * c3 * tan_half;
+        let indirect = lit::<R>(0.17) * (s2 / (s2 + lit(0.13))) * (one - cos_phi * beta * beta);
+        albedo * lit(FRAC_1_PI) * (direct + albedo * indirect)
+    })
 }
 
 const DIFFUSE_OREN_NAYAR_FULL: Term = entry!(
@@ -203,19 +200,19 @@ fn one_minus_pow5<R: Real>(c: R) -> R {
 /// N·H is taken from the identity (N·L + N·V)/|L + V|, and never divided by alone.
 #[inline(always)]
 pub fn diffuse_hammon<R: Real>(n_dot_l: R, n_dot_v: R, l_dot_v: R, alpha: R, albedo: R) -> R {
-    if n_dot_l <= lit(0.0) || n_dot_v <= lit(0.0) {
-        return lit(0.0);
-    }
-    let one = lit::<R>(1.0);
-    let (l, v) = (n_dot_l.at_most(one), n_dot_v.at_most(one));
-    let two_facing = (one + l_dot_v).at_least(lit(0.0));
-    let facing = lit::<R>(0.5) * two_facing;
-    // |L + V|/(N·L + N·V), which is 1/N·H.
-    let secant = (lit::<R>(2.0) * two_facing).sqrt() / (l + v);
-    let rough = facing * (lit::<R>(0.9) - lit::<R>(0.4) * facing) * (one + lit::<R>(0.5) * secant);
-    let smooth = lit::<R>(1.05) * one_minus_pow5(l) * one_minus_pow5(v);
-    let single = (smooth * (one - alpha) + rough * alpha) * lit(FRAC_1_PI);
-    albedo * (single + albedo * (lit::<R>(0.1159) * alpha))
+    above_horizon(n_dot_l, n_dot_v, |l, v| {
+        let one = lit::<R>(1.0);
+        let (alpha, albedo) = (alpha.clamp_unit(), albedo.at_least(lit(0.0)));
+        let two_facing = one + l_dot_v.at_least(-one).at_most(one);
+        let facing = lit::<R>(0.5) * two_facing;
+        // |L + V|/(N·L + N·V), which is 1/N·H.
+        let secant = ((lit::<R>(2.0) * two_facing).sqrt() / (l + v)).at_most(lit(R::LARGE));
+        let rough =
+            facing * (lit::<R>(0.9) - lit::<R>(0.4) * facing) * (one + lit::<R>(0.5) * secant);
+        let smooth = lit::<R>(1.05) * one_minus_pow5(l) * one_minus_pow5(v);
+        let single = (smooth * (one - alpha) + rough * alpha) * lit(FRAC_1_PI);
+        albedo * (single + albedo * (lit::<R>(0.1159) * alpha))
+    })
 }
 
 const DIFFUSE_HAMMON: Term = entry!(
@@ -266,20 +263,29 @@ fn fon_loss<R: Real>(mu: R) -> R {
 /// the average: no clamp is needed at roughness 0.
 #[inline(always)]
 pub fn diffuse_eon<R: Real>(n_dot_l: R, n_dot_v: R, l_dot_v: R, roughness: R, albedo: R) -> R {
-    if n_dot_l <= lit(0.0) || n_dot_v <= lit(0.0) {
-        return lit(0.0);
-    }
-    let one = lit::<R>(1.0);
-    let (low, high) = ordered(n_dot_l, n_dot_v);
-    let s = l_dot_v - low * high;
-    let s_over_t = if s > lit(0.0) { s / high } else { s };
-    let a = one / (one + lit::<R>(FON_1) * roughness);
-    let single = albedo * a * (one + roughness * s_over_t);
-    let lost_average = a * roughness * lit(FON_1 - FON_2);
-    let average = a * (one + lit::<R>(FON_2) * roughness);
-    let rho_multi = albedo * albedo * average / (one - albedo * lost_average);
-    let multi = rho_multi * a * roughness * fon_loss(low) * fon_loss(high) / lit(FON_1 - FON_2);
-    (single + multi) * lit(FRAC_1_PI)
+    above_horizon(n_dot_l, n_dot_v, |l, v| {
+        let one = lit::<R>(1.0);
+        let (low, high) = ordered(l, v);
+        let (r, rho) = (roughness.clamp_unit(), albedo.clamp_unit());
+        // L·V − N·L N·V and, where it is near −1, 1 + r s keep the digits they cancel.
+        let (product, product_low) = low.two_prod(high);
+        let (s, s_low) = l_dot_v.at_least(-one).at_most(one).two_sum(-product);
+        let s_low = s_low - product_low;
+        let facing = if s > lit(0.0) {
+            one + r * (s / high).at_most(lit(R::LARGE))
+        } else {
+            let (rs, rs_low) = r.two_prod(s);
+            let (sum, sum_low) = one.two_sum(rs);
+            (sum + (sum_low + rs_low + r * s_low)).at_least(lit(0.0))
+        };
+        let a = one / (one + lit::<R>(FON_1) * r);
+        let single = rho * a * facing;
+        let average = a * (one + lit::<R>(FON_2) * r);
+        let average_loss = a * r * lit(FON_1 - FON_2);
+        let multi = rho * rho * average / (one - rho * average_loss)
+            * (a * r * fon_loss(low) * fon_loss(high) / lit(FON_1 - FON_2));
+        (single + multi) * lit(FRAC_1_PI)
+    })
 }
 
 const EON_ROUGHNESS: Param = Param {

@@ -3,7 +3,7 @@
 //! `v_dot_h` is the cosine between the direction and the facet it is mirrored in; N·V where
 //! the surface itself is the mirror. It counts as 0 below 0 and as 1 above 1.
 
-use crate::real::{Real, lit};
+use crate::real::{Real, lit, zero_unless_nan};
 use crate::term::{F0, Param, Term, V_DOT_H, entry};
 
 pub(crate) const TERMS: &[Term] = &[
@@ -15,17 +15,12 @@ pub(crate) const TERMS: &[Term] = &[
     F_LAZANYI,
 ];
 
-#[inline(always)]
-pub(crate) fn unit<R: Real>(c: R) -> R {
-    c.at_least(lit(0.0)).at_most(lit(1.0))
-}
-
 /// Schlick: F = f0 + (1 − f0)(1 − V·H)⁵.
 ///
 /// Schlick 1994, eq. 15. From f0 at normal incidence to 1 at grazing.
 #[inline(always)]
 pub fn f_schlick<R: Real>(f0: R, v_dot_h: R) -> R {
-    f0 + (lit::<R>(1.0) - f0) * (lit::<R>(1.0) - unit(v_dot_h)).pow5()
+    f0 + (lit::<R>(1.0) - f0) * (lit::<R>(1.0) - v_dot_h.clamp_unit()).pow5()
 }
 
 const F_SCHLICK: Term = entry!(
@@ -46,7 +41,7 @@ const F_SCHLICK: Term = entry!(
 /// 1.7e-4 (1 − f0) remains above f0.
 #[inline(always)]
 pub fn f_spherical_gaussian<R: Real>(f0: R, v_dot_h: R) -> R {
-    let u = unit(v_dot_h);
+    let u = v_dot_h.clamp_unit();
     f0 + (lit::<R>(1.0) - f0) * ((lit::<R>(-5.55473) * u - lit(6.98316)) * u).exp2()
 }
 
@@ -71,10 +66,10 @@ pub fn f_schlick_ior<R: Real>(ior: R, v_dot_h: R) -> R {
 
 /// Reflectance at normal incidence of an index of refraction: ((n − 1)/(n + 1))².
 ///
-/// 0.04 for 1.5. Indices beyond the square root of the largest number count as 1.
+/// 0.04 for 1.5. The sign is ignored.
 #[inline(always)]
 pub fn f0_from_ior<R: Real>(ior: R) -> R {
-    let n = ior.at_most(lit(R::LARGE));
+    let n = ior.abs().at_most(lit(R::LARGE));
     ((n - lit(1.0)) / (n + lit(1.0))).squared()
 }
 
@@ -113,27 +108,29 @@ fn refracted_squared<R: Real>(eta: R, c: R) -> R {
 /// 1982, eq. 15, in amplitudes.
 ///
 /// The differences in the numerators are multiplied out, so that η near 1 keeps its digits:
-/// r_s = (η² − 1)/(c + g)², r_p = (η² − 1)(c² (η² + 1) − 1)/(η² c + g)².
+/// r_s = (η² − 1)/(c + g)², r_p = (η² − 1)(c² η² − s²)/(η² c + g)².
 /// η = 1 gives 0: there is no interface.
 #[inline(always)]
 pub fn f_dielectric<R: Real>(eta: R, v_dot_h: R) -> R {
-    let c = unit(v_dot_h);
-    let eta = eta.abs().at_most(lit(R::LARGE));
+    let c = v_dot_h.clamp_unit();
+    let eta = eta
+        .abs()
+        .at_least(lit(1.0 / R::LARGE))
+        .at_most(lit(R::LARGE));
     let g2 = refracted_squared(eta, c);
     if g2 < lit(0.0) {
         return lit(1.0);
     }
-    let g = g2.sqrt();
-    let sum_s = c + g;
-    if sum_s == lit(0.0) {
-        return lit(0.0);
+    let d = (eta - lit(1.0)) * (eta + lit(1.0));
+    if d == lit(0.0) {
+        return zero_unless_nan([c]);
     }
+    let g = g2.sqrt();
     let eta2 = eta * eta;
-    let sum_p = eta2 * c + g;
-    let (below, above) = (eta - lit(1.0), eta + lit(1.0));
-    let r_s = (below / sum_s) * (above / sum_s);
-    let brewster = c * c * (eta2 + lit(1.0)) - lit(1.0);
-    let r_p = (below * above / sum_p) * (brewster / sum_p);
+    let (sum_s, sum_p) = (c + g, eta2 * c + g);
+    let brewster = (c * eta).squared() - (lit::<R>(1.0) - c) * (lit::<R>(1.0) + c);
+    let r_s = d / sum_s / sum_s;
+    let r_p = (d / sum_p) * (brewster / sum_p);
     lit::<R>(0.5) * (r_s * r_s + r_p * r_p)
 }
 
@@ -176,7 +173,7 @@ const F_DIELECTRIC: Term = entry!(
 #[inline(always)]
 pub fn f_conductor<R: Real>(n: R, k: R, v_dot_h: R) -> R {
     let [zero, one, two] = [lit::<R>(0.0), lit(1.0), lit(2.0)];
-    let c = unit(v_dot_h);
+    let c = v_dot_h.clamp_unit();
     let (n, k) = (
         n.abs().at_most(lit(R::LARGE)),
         k.abs().at_most(lit(R::LARGE)),
@@ -202,20 +199,27 @@ pub fn f_conductor<R: Real>(n: R, k: R, v_dot_h: R) -> R {
         (large, small)
     };
     let a = a2.sqrt();
-    // a² − c²
-    let d = (n - one) * (n + one) + (b2 - k * k);
+    // a − c as (a² − c²)/(a + c), and a c − s² likewise, where they cancel and b is small.
+    let b2_k2 = b2 - k * k;
+    let cancels = |difference: R, sum: R| t0 > zero && difference.abs() < lit::<R>(0.25) * sum;
     let plus = a + c;
-    let minus = if plus > zero { d / plus } else { plus };
+    let minus = a - c;
+    let minus = if cancels(minus, plus) {
+        ((n - one) * (n + one) + b2_k2) / plus
+    } else {
+        minus
+    };
     let den_s = plus * plus + b2;
     if den_s == zero {
         return zero;
     }
     let r_s = (minus * minus + b2) / den_s;
     let sum = a * c + s2;
-    let difference = if sum > zero {
-        (c * c * (two + d) - one) / sum
+    let difference = a * c - s2;
+    let difference = if cancels(difference, sum) {
+        (c * c * (n * n + b2_k2) - s2) / sum
     } else {
-        sum
+        difference
     };
     let bc2 = b2 * (c * c);
     let den_p = sum * sum + bc2;
@@ -270,7 +274,7 @@ const F_CONDUCTOR: Term = entry!(
 /// Not kept in [0, 1]: a large `a` makes it negative.
 #[inline(always)]
 pub fn f_lazanyi<R: Real>(f0: R, a: R, v_dot_h: R) -> R {
-    let u = unit(v_dot_h);
+    let u = v_dot_h.clamp_unit();
     let m = lit::<R>(1.0) - u;
     let m5 = m.pow5();
     f0 + m5 * ((lit::<R>(1.0) - f0) - a * u * m)

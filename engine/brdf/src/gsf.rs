@@ -5,10 +5,11 @@
 //! some and not by others, so that one slider cannot drive them all: with α = roughness²
 //! elsewhere, `gsf_walter`, `gsf_ggx` and `gsf_schlick_ggx` take roughness itself for α.
 //!
-//! A cosine at or below 0 (`n_dot_l`, `n_dot_v`) gives 0; the rest is the formula.
+//! `n_dot_l` or `n_dot_v` at or below 0 gives 0, where a formula is meant for the lit side;
+//! other cosines and roughness are brought into their range. Division by `v_dot_h = 0` gives +∞.
 
 use crate::real::{Real, lit};
-use crate::smith::sine;
+use crate::smith::{above_horizon, g1_beckmann_rational, sine};
 use crate::term::{L_DOT_V, N_DOT_H, N_DOT_L, N_DOT_V, ROUGHNESS, Term, V_DOT_H, entry};
 
 pub(crate) const TERMS: &[Term] = &[
@@ -30,16 +31,6 @@ pub(crate) const TERMS: &[Term] = &[
     GSF_SCHLICK_GGX,
 ];
 
-/// `value`, but 0 where a direction is below the horizon and NaN where a cosine is NaN.
-#[inline(always)]
-fn lit_side<R: Real>(n_dot_l: R, n_dot_v: R, value: impl FnOnce() -> R) -> R {
-    if n_dot_l <= lit(0.0) || n_dot_v <= lit(0.0) {
-        (n_dot_l + n_dot_v) * lit(0.0)
-    } else {
-        value()
-    }
-}
-
 /// sqrt(2/π) as the sources print it.
 const SQRT_2_OVER_PI: f64 = 0.797_884_560_802_865;
 
@@ -49,7 +40,7 @@ const SQRT_2_OVER_PI: f64 = 0.797_884_560_802_865;
 /// and is far too dark at grazing angles.
 #[inline(always)]
 pub fn gsf_implicit<R: Real>(n_dot_l: R, n_dot_v: R) -> R {
-    lit_side(n_dot_l, n_dot_v, || n_dot_l * n_dot_v)
+    above_horizon(n_dot_l, n_dot_v, |l, v| l * v)
 }
 
 const GSF_IMPLICIT: Term = entry!(
@@ -68,9 +59,8 @@ const GSF_IMPLICIT: Term = entry!(
 /// D cos a factor N·H is missing. Reciprocal, in [0, 1], no roughness, itself isotropic.
 #[inline(always)]
 pub fn gsf_ashikhmin_shirley<R: Real>(n_dot_l: R, n_dot_v: R, v_dot_h: R) -> R {
-    lit_side(n_dot_l, n_dot_v, || {
-        n_dot_l * n_dot_v / (v_dot_h * n_dot_l.at_least(n_dot_v))
-    })
+    // N·L N·V / max(N·L, N·V) is the smaller one.
+    above_horizon(n_dot_l, n_dot_v, |l, v| l.at_most(v) / v_dot_h.clamp_unit())
 }
 
 const GSF_ASHIKHMIN_SHIRLEY: Term = entry!(
@@ -90,10 +80,7 @@ const GSF_ASHIKHMIN_SHIRLEY: Term = entry!(
 /// paper allows any distribution, not only isotropic ones.
 #[inline(always)]
 pub fn gsf_ashikhmin_premoze<R: Real>(n_dot_l: R, n_dot_v: R) -> R {
-    lit_side(n_dot_l, n_dot_v, || {
-        let product = n_dot_l * n_dot_v;
-        product / (n_dot_l + n_dot_v - product)
-    })
+    above_horizon(n_dot_l, n_dot_v, |l, v| l * v / (l + v - l * v))
 }
 
 const GSF_ASHIKHMIN_PREMOZE: Term = entry!(
@@ -115,10 +102,13 @@ const GSF_ASHIKHMIN_PREMOZE: Term = entry!(
 /// upper bound. The G for that model is N·L N·V/(V·H)².
 #[inline(always)]
 pub fn gsf_duer<R: Real>(n_dot_l: R, n_dot_v: R, l_dot_v: R) -> R {
-    lit_side(n_dot_l, n_dot_v, || {
-        let sum = n_dot_l + n_dot_v;
-        let sum2 = sum * sum;
-        (lit::<R>(2.0) + lit::<R>(2.0) * l_dot_v) / sum2 / sum2
+    above_horizon(n_dot_l, n_dot_v, |l, v| {
+        let length2 = lit::<R>(2.0) + lit::<R>(2.0) * l_dot_v.at_least(lit(-1.0)).at_most(lit(1.0));
+        if length2 == lit(0.0) {
+            return length2;
+        }
+        let sum2 = (l + v).squared();
+        length2 / sum2 / sum2
     })
 }
 
@@ -140,9 +130,7 @@ const GSF_DUER: Term = entry!(
 /// Right, reciprocal, in [0, 1]; no roughness.
 #[inline(always)]
 pub fn gsf_neumann<R: Real>(n_dot_l: R, n_dot_v: R) -> R {
-    lit_side(n_dot_l, n_dot_v, || {
-        n_dot_l * n_dot_v / n_dot_l.at_least(n_dot_v)
-    })
+    above_horizon(n_dot_l, n_dot_v, |l, v| l.at_most(v))
 }
 
 const GSF_NEUMANN: Term = entry!(
@@ -162,8 +150,9 @@ const GSF_NEUMANN: Term = entry!(
 /// height-correlated Smith model. No roughness.
 #[inline(always)]
 pub fn gsf_kelemen<R: Real>(n_dot_l: R, n_dot_v: R, v_dot_h: R) -> R {
-    lit_side(n_dot_l, n_dot_v, || {
-        (n_dot_l / v_dot_h) * (n_dot_v / v_dot_h)
+    above_horizon(n_dot_l, n_dot_v, |l, v| {
+        let h = v_dot_h.clamp_unit();
+        (l / h) * (v / h)
     })
 }
 
@@ -184,10 +173,9 @@ const GSF_KELEMEN: Term = entry!(
 /// than it receives (albedo 1.176 at roughness 0.7, N·V = 0.05).
 #[inline(always)]
 pub fn gsf_modified_kelemen<R: Real>(n_dot_l: R, n_dot_v: R, roughness: R) -> R {
-    lit_side(n_dot_l, n_dot_v, || {
-        let k = roughness * roughness * lit(SQRT_2_OVER_PI);
-        let g = n_dot_v * k + (lit::<R>(1.0) - k);
-        g * g * n_dot_l
+    above_horizon(n_dot_l, n_dot_v, |l, v| {
+        let k = roughness.clamp_unit().squared() * lit(SQRT_2_OVER_PI);
+        (v * k + (lit::<R>(1.0) - k)).squared() * l
     })
 }
 
@@ -210,16 +198,11 @@ const GSF_MODIFIED_KELEMEN: Term = entry!(
 /// 1977). Reciprocal, in [0, 1], with a crease where the minimum changes; no roughness.
 #[inline(always)]
 pub fn gsf_cook_torrance<R: Real>(n_dot_l: R, n_dot_v: R, v_dot_h: R, n_dot_h: R) -> R {
-    lit_side(n_dot_l, n_dot_v, || {
-        let twice = lit::<R>(2.0) * n_dot_h;
-        let (view, light) = (twice * n_dot_v, twice * n_dot_l);
-        let smaller = view.at_most(light);
-        // Before the division: where both vanish the minimum is 1 by the formula's limit.
-        if smaller >= v_dot_h {
-            lit(1.0)
-        } else {
-            smaller / v_dot_h
-        }
+    above_horizon(n_dot_l, n_dot_v, |l, v| {
+        let h = v_dot_h.clamp_unit();
+        let smaller = lit::<R>(2.0) * n_dot_h.clamp_unit() * l.at_most(v);
+        // Compared before the division: where both vanish it is not masked.
+        if smaller >= h { lit(1.0) } else { smaller / h }
     })
 }
 
@@ -241,7 +224,7 @@ const GSF_COOK_TORRANCE: Term = entry!(
 /// one, not more. Reciprocal, in [0, 1], no roughness.
 #[inline(always)]
 pub fn gsf_ward<R: Real>(n_dot_l: R, n_dot_v: R) -> R {
-    lit_side(n_dot_l, n_dot_v, || (n_dot_l * n_dot_v).sqrt())
+    above_horizon(n_dot_l, n_dot_v, |l, v| (l * v).sqrt())
 }
 
 const GSF_WARD: Term = entry!(
@@ -261,9 +244,9 @@ const GSF_WARD: Term = entry!(
 /// the mirror direction; albedo 18.7 at roughness 1, N·V = 0.05). Reciprocal.
 #[inline(always)]
 pub fn gsf_kurt<R: Real>(n_dot_l: R, n_dot_v: R, v_dot_h: R, roughness: R) -> R {
-    lit_side(n_dot_l, n_dot_v, || {
-        let product = n_dot_l * n_dot_v;
-        product / (v_dot_h * product.powf(roughness))
+    above_horizon(n_dot_l, n_dot_v, |l, v| {
+        let product = (l * v).at_least(lit(R::TINY));
+        product / (v_dot_h.clamp_unit() * product.powf(roughness.clamp_unit()))
     })
 }
 
@@ -282,7 +265,6 @@ const GSF_KURT: Term = entry!(
 /// 2 / (1 + sqrt(1 + a² tan²θ)).
 #[inline(always)]
 fn walter_g1<R: Real>(c: R, a: R) -> R {
-    let c = c.at_most(lit(1.0));
     lit::<R>(2.0) * (c / (c + c.hypot(a * sine(c))))
 }
 
@@ -292,8 +274,9 @@ fn walter_g1<R: Real>(c: R, a: R) -> R {
 /// distribution", and takes roughness for α. In [0, 1], reciprocal.
 #[inline(always)]
 pub fn gsf_walter<R: Real>(n_dot_l: R, n_dot_v: R, roughness: R) -> R {
-    lit_side(n_dot_l, n_dot_v, || {
-        walter_g1(n_dot_l, roughness) * walter_g1(n_dot_v, roughness)
+    above_horizon(n_dot_l, n_dot_v, |l, v| {
+        let a = roughness.clamp_unit();
+        walter_g1(l, a) * walter_g1(v, a)
     })
 }
 
@@ -318,9 +301,8 @@ const GSF_WALTER: Term = entry!(
 /// Right to 0.32 %; exceeds 1 (by up to 1.2e-4) near a = 1.6. Reciprocal.
 #[inline(always)]
 pub fn gsf_smith_beckmann<R: Real>(n_dot_l: R, n_dot_v: R, roughness: R) -> R {
-    let alpha = roughness * roughness;
-    crate::smith::g1_beckmann_rational(n_dot_l, alpha)
-        * crate::smith::g1_beckmann_rational(n_dot_v, alpha)
+    let alpha = roughness.clamp_unit().squared();
+    g1_beckmann_rational(n_dot_l, alpha) * g1_beckmann_rational(n_dot_v, alpha)
 }
 
 const GSF_SMITH_BECKMANN: Term = entry!(
@@ -371,8 +353,8 @@ fn schlick<R: Real>(n_dot_l: R, n_dot_v: R, k: R) -> R {
 /// A convention: this k fits nobody's Smith function. In [0, 1], reciprocal.
 #[inline(always)]
 pub fn gsf_schlick<R: Real>(n_dot_l: R, n_dot_v: R, roughness: R) -> R {
-    lit_side(n_dot_l, n_dot_v, || {
-        schlick(n_dot_l, n_dot_v, roughness * roughness)
+    above_horizon(n_dot_l, n_dot_v, |l, v| {
+        schlick(l, v, roughness.clamp_unit().squared())
     })
 }
 
@@ -394,12 +376,8 @@ const GSF_SCHLICK: Term = entry!(
 /// Beckmann the error reaches 0.43. In [0, 1], reciprocal.
 #[inline(always)]
 pub fn gsf_schlick_beckmann<R: Real>(n_dot_l: R, n_dot_v: R, roughness: R) -> R {
-    lit_side(n_dot_l, n_dot_v, || {
-        schlick(
-            n_dot_l,
-            n_dot_v,
-            roughness * roughness * lit(SQRT_2_OVER_PI),
-        )
+    above_horizon(n_dot_l, n_dot_v, |l, v| {
+        schlick(l, v, roughness.clamp_unit().squared() * lit(SQRT_2_OVER_PI))
     })
 }
 
@@ -421,8 +399,8 @@ const GSF_SCHLICK_BECKMANN: Term = entry!(
 /// direct light his engine used (roughness + 1)²/8. In [0, 1], reciprocal.
 #[inline(always)]
 pub fn gsf_schlick_ggx<R: Real>(n_dot_l: R, n_dot_v: R, roughness: R) -> R {
-    lit_side(n_dot_l, n_dot_v, || {
-        schlick(n_dot_l, n_dot_v, roughness * lit(0.5))
+    above_horizon(n_dot_l, n_dot_v, |l, v| {
+        schlick(l, v, roughness.clamp_unit() * lit(0.5))
     })
 }
 

@@ -1,6 +1,6 @@
 //! The half vector without the half vector: cosines from cosines.
 
-use crate::real::{Real, lit};
+use crate::real::{Real, lit, zero_unless_nan};
 use crate::term::{L_DOT_V, N_DOT_L, N_DOT_V, Term, entry};
 
 pub(crate) const TERMS: &[Term] = &[N_DOT_H_FROM, V_DOT_H_FROM];
@@ -14,9 +14,9 @@ pub(crate) const TERMS: &[Term] = &[N_DOT_H_FROM, V_DOT_H_FROM];
 pub fn n_dot_h_from<R: Real>(n_dot_l: R, n_dot_v: R, l_dot_v: R) -> R {
     let sum = n_dot_l + n_dot_v;
     if sum <= lit(0.0) {
-        return sum * lit(0.0);
+        return zero_unless_nan([n_dot_l, n_dot_v, l_dot_v]);
     }
-    let length2 = (lit::<R>(2.0) + lit::<R>(2.0) * l_dot_v).at_least(lit(0.0));
+    let length2 = lit::<R>(2.0) + lit::<R>(2.0) * l_dot_v.at_least(lit(-1.0)).at_most(lit(1.0));
     (sum / length2.sqrt()).at_most(lit(1.0))
 }
 
@@ -38,8 +38,8 @@ const N_DOT_H_FROM: Term = entry!(
 /// called like [`n_dot_h_from`]. L·V is cut off to [−1, 1].
 #[inline(always)]
 pub fn v_dot_h_from<R: Real>(n_dot_l: R, n_dot_v: R, l_dot_v: R) -> R {
-    let _ = (n_dot_l, n_dot_v);
-    (lit::<R>(0.5) + lit::<R>(0.5) * l_dot_v.at_least(lit(-1.0)).at_most(lit(1.0))).sqrt()
+    let unused = zero_unless_nan([n_dot_l, n_dot_v]);
+    unused + (lit::<R>(0.5) + lit::<R>(0.5) * l_dot_v.at_least(lit(-1.0)).at_most(lit(1.0))).sqrt()
 }
 
 const V_DOT_H_FROM: Term = entry!(

@@ -1,8 +1,10 @@
 //! Integrals over the hemisphere, and figures that follow from them.
 
-use crate::real::{Real, lit};
-use crate::smith::{v_ggx, v_ggx_separable};
+use crate::real::{Real, lit, zero_unless_nan};
+use crate::smith::sine;
 use crate::term::{ALPHA, N_DOT_V, Param, Term, entry};
+use std::f64::consts::PI;
+use std::sync::LazyLock;
 
 pub(crate) const TERMS: &[Term] = &[
     INTEGRAL_D_GGX,
@@ -25,7 +27,7 @@ pub fn integral_d_ggx<R: Real>(alpha: R) -> R {
         return one;
     }
     let s2 = (one - a) * (one + a);
-    let s = s2.abs().sqrt();
+    let s = (one - a).abs().sqrt() * (one + a).sqrt();
     let ratio = if s2 > lit(0.75) {
         ((one + s) / a).ln() / s
     } else if s2 > lit(0.0) {
@@ -35,7 +37,7 @@ pub fn integral_d_ggx<R: Real>(alpha: R) -> R {
     } else {
         one + s
     };
-    one + a * a * ratio
+    one + a * (a * ratio)
 }
 
 const INTEGRAL_D_GGX: Term = entry!(
@@ -69,67 +71,188 @@ const INTEGRAL_D_COS_GGX: Term = entry!(
 
 /// Gauss-Legendre nodes and weights on [0, 1].
 fn gauss_legendre(n: usize) -> Vec<(f64, f64)> {
-    (0..n)
-        .map(|i| {
-            let mut x = libm::cos(std::f64::consts::PI * (i as f64 + 0.75) / (n as f64 + 0.5));
-            let mut derivative = 1.0;
-            for _ in 0..8 {
-                let (mut p, mut q) = (1.0, 0.0);
-                for k in 0..n {
-                    let k = k as f64;
-                    (p, q) = (((2.0 * k + 1.0) * x * p - k * q) / (k + 1.0), p);
-                }
-                derivative = n as f64 * (x * p - q) / (x * x - 1.0);
-                x -= p / derivative;
+    let node = |i: usize| {
+        let mut x = libm::cos(PI * (i as f64 + 0.75) / (n as f64 + 0.5));
+        let mut derivative = 1.0;
+        // Newton's method on the Legendre polynomial; five steps from here are enough.
+        for _ in 0..8 {
+            let (mut p, mut q) = (1.0, 0.0);
+            for k in 0..n {
+                let k = k as f64;
+                (p, q) = (((2.0 * k + 1.0) * x * p - k * q) / (k + 1.0), p);
             }
-            (
-                0.5 - 0.5 * x,
-                1.0 / ((1.0 - x * x) * derivative * derivative),
-            )
-        })
-        .collect()
+            derivative = n as f64 * (x * p - q) / (x * x - 1.0);
+            x -= p / derivative;
+        }
+        (
+            0.5 - 0.5 * x,
+            1.0 / ((1.0 - x * x) * derivative * derivative),
+        )
+    };
+    (0..n).map(node).collect()
 }
 
-/// ∫ D(h) w(N·L) N·L dω over the directions l above the horizon, F = 1.
-///
-/// In the slopes of h the region where l is above the horizon is the disc with centre tan θ
-/// towards v and radius sec θ. Polar around the slope origin, r = α tan ψ.
-fn directional(n_dot_v: f64, alpha: f64, weight: impl Fn(f64) -> f64) -> f64 {
-    use std::f64::consts::PI;
-    let mu = n_dot_v.min(1.0);
-    if mu.is_nan() || alpha.is_nan() {
-        return f64::NAN;
-    }
-    let mu = mu.max(1e-9);
-    let alpha = alpha.abs().max(1e-9);
-    let sin = ((1.0 - mu) * (1.0 + mu)).sqrt();
-    let nodes = gauss_legendre(96);
-    let steps = 192;
-    let mut sum = 0.0;
-    for step in 0..steps {
-        let phi = PI * (f64::from(step) + 0.5) / f64::from(steps);
-        let x = sin / mu * libm::cos(phi);
-        let root = (1.0 + x * x).sqrt();
-        let reach = if x < 0.0 { 1.0 / (root - x) } else { root + x };
-        let psi_max = libm::atan(reach / alpha);
-        for &(y, w) in &nodes {
-            let psi = psi_max * y * (2.0 - y);
-            let jacobian = psi_max * 2.0 * (1.0 - y) * w;
-            let (s, c) = (libm::sin(psi), libm::cos(psi));
-            let r = alpha * s / c;
-            // h = (r cos φ, ·, 1)/sqrt(1 + r²) with v = (sin, 0, mu).
-            let h2 = 1.0 / (1.0 + r * r);
-            let vh_over_hz = mu + sin * r * libm::cos(phi);
-            let nl = 2.0 * vh_over_hz * h2 - mu;
-            if nl <= 0.0 || vh_over_hz <= 0.0 {
-                continue;
-            }
-            // D cos θ_h dω_h is the slope density; dω_l = 4 V·H dω_h.
-            let slope_density = s * c / PI;
-            sum += jacobian * slope_density * 4.0 * vh_over_hz * weight(nl) * nl;
+/// The nodes of a quadrature over the slopes.
+struct Rule {
+    /// Nodes and weights on [0, 1].
+    radial: Vec<(f64, f64)>,
+    /// cos φ of the midpoints of half a turn.
+    cosines: Vec<f64>,
+}
+
+impl Rule {
+    fn new(n: usize) -> Rule {
+        let cosines = (0..n)
+            .map(|i| libm::cos(PI * (i as f64 + 0.5) / n as f64))
+            .collect();
+        Rule {
+            radial: gauss_legendre(n),
+            cosines,
         }
     }
-    sum * 2.0 * PI / f64::from(steps)
+}
+
+static COARSE: LazyLock<Rule> = LazyLock::new(|| Rule::new(30));
+static FINE: LazyLock<Rule> = LazyLock::new(|| Rule::new(128));
+
+/// ∫ D V N·L dω with `visibility` for V as a function of N·L, over the directions l above
+/// the horizon.
+///
+/// Integrated over the slopes (p, q) of h, p towards v, where D cos θ dω is the slope density
+/// P₂₂ dp dq and dω_l = 4 V·H dω_h. There the region with l above the horizon is exactly the
+/// disc with centre tan θ and radius sec θ, and N·L is μ (the power of the point in that
+/// disc)/(1 + p² + q²), which does not cancel at its rim.
+fn directional<R: Real>(mu: R, alpha: R, rule: &Rule, visibility: impl Fn(R) -> R) -> R {
+    if mu < lit(0.1) && mu < lit::<R>(1.5) * alpha {
+        directional_grazing(mu, alpha, rule, visibility)
+    } else {
+        directional_polar(mu, alpha, rule, visibility)
+    }
+}
+
+/// Polar around the slope 0: r = α tan ψ up to the rim, ψ = 2 atan t, t = t_max y (2 − y).
+fn directional_polar<R: Real>(mu: R, alpha: R, rule: &Rule, visibility: impl Fn(R) -> R) -> R {
+    let (one, two) = (lit::<R>(1.0), lit::<R>(2.0));
+    let sin = sine(mu);
+    let mut sum = lit::<R>(0.0);
+    for &cos_phi in &rule.cosines {
+        let cos_phi = lit::<R>(cos_phi);
+        let x = sin / mu * cos_phi;
+        let root = (one + x * x).sqrt();
+        // r² − 2 x r − 1 = (r − reach)(r + 1/reach).
+        let reach = if x < lit(0.0) {
+            one / (root - x)
+        } else {
+            root + x
+        };
+        let t_max = reach / (alpha + alpha.hypot(reach));
+        for &(y, weight) in &rule.radial {
+            let (y, weight) = (lit::<R>(y), lit::<R>(weight));
+            let t = t_max * y * (two - y);
+            let sec = one / (one + t * t);
+            let (sin_psi, cos_psi) = (two * t * sec, (one - t) * (one + t) * sec);
+            let r = alpha * sin_psi / cos_psi;
+            let n_dot_l = mu * (reach - r) * (r + one / reach) / (one + r * r);
+            let density = sin_psi * cos_psi * sec * (one - y) * t_max * weight;
+            sum = sum + density * (mu + sin * r * cos_phi) * visibility(n_dot_l) * n_dot_l;
+        }
+    }
+    // 4 for V·H, 2 each for t(y) and ψ(t); a half turn's midpoints stand for 2π over π.
+    sum * lit(32.0 / rule.cosines.len() as f64)
+}
+
+/// Cartesian for grazing views, where the rim almost touches the slope 0: p = A tan²ζ from the
+/// rim, q = sqrt(α² + p²) tan η, both half-angle tangents, so that the rim is smooth.
+fn directional_grazing<R: Real>(mu: R, alpha: R, rule: &Rule, visibility: impl Fn(R) -> R) -> R {
+    let (one, two) = (lit::<R>(1.0), lit::<R>(2.0));
+    let sin = sine(mu);
+    let near = mu / (one + sin);
+    let far = (one + sin) / mu;
+    let scale = near.hypot(alpha);
+    // tan ζ at the far rim, and its half-angle tangent.
+    let w_max = ((near + far) / scale).sqrt();
+    let s_max = w_max / (one + one.hypot(w_max));
+    let mut sum = lit::<R>(0.0);
+    for &(x, x_weight) in &rule.radial {
+        let (x, x_weight) = (lit::<R>(x), lit::<R>(x_weight));
+        let s = s_max * x * (two - x);
+        let cos_sec = one / ((one - s) * (one + s));
+        let w = two * s * cos_sec;
+        let from_rim = scale * w * w;
+        let p = from_rim - near;
+        let dp = two
+            * scale
+            * w
+            * (two * (one + s * s) * cos_sec * cos_sec)
+            * s_max
+            * two
+            * (one - x)
+            * x_weight;
+        let b = alpha.hypot(p);
+        let q_max = (from_rim * (far - p).at_least(lit(0.0))).sqrt();
+        let t_max = q_max / (b + b.hypot(q_max));
+        let mut inner = lit::<R>(0.0);
+        for &(y, y_weight) in &rule.radial {
+            let (y, y_weight) = (lit::<R>(y), lit::<R>(y_weight));
+            let t = t_max * y;
+            let sec = one / (one + t * t);
+            let cos_eta = (one - t) * (one + t) * sec;
+            let q = b * (two * t * sec) / cos_eta;
+            let n_dot_l = mu * (q_max - q) * (q_max + q) / (one + p * p + q * q);
+            inner = inner + cos_eta * cos_eta * sec * y_weight * visibility(n_dot_l) * n_dot_l;
+        }
+        let ratio = alpha / b;
+        sum = sum + dp * (ratio * ratio / b) * t_max * (mu + sin * p) * inner;
+    }
+    // 4 for V·H, 2 for the sign of q, 2 for η(t), over π.
+    sum * lit(16.0 / PI)
+}
+
+/// A view in front of a surface: what the visibilities below have in common.
+#[derive(Clone, Copy)]
+struct View<R> {
+    mu: R,
+    alpha2: R,
+    /// sqrt(μ² + α² (1 − μ²)).
+    projected: R,
+}
+
+impl<R: Real> View<R> {
+    /// sqrt(c² + α² (1 − c²)); no underflow, as α is at least 1e-9 here.
+    #[inline(always)]
+    fn project(self, c: R) -> R {
+        (c * c + self.alpha2 * ((lit::<R>(1.0) - c) * (lit::<R>(1.0) + c))).sqrt()
+    }
+
+    /// [`crate::v_ggx`] of this view.
+    #[inline(always)]
+    fn correlated(self, n_dot_l: R) -> R {
+        lit::<R>(0.5) / (n_dot_l * self.projected + self.mu * self.project(n_dot_l))
+    }
+
+    /// [`crate::v_ggx_separable`] of this view.
+    #[inline(always)]
+    fn separable(self, n_dot_l: R) -> R {
+        lit::<R>(1.0) / ((n_dot_l + self.project(n_dot_l)) * (self.mu + self.projected))
+    }
+}
+
+/// Arguments of an albedo brought into their range, and the rule for the precision.
+#[inline(always)]
+fn albedo<R: Real>(n_dot_v: R, alpha: R, visibility: impl Fn(View<R>, R) -> R) -> R {
+    if n_dot_v.is_nan() || alpha.is_nan() {
+        return zero_unless_nan([n_dot_v, alpha]);
+    }
+    let mu = n_dot_v.at_least(lit(1e-9)).at_most(lit(1.0));
+    let alpha = alpha.abs().at_least(lit(1e-9)).at_most(lit(1e6));
+    let rule: &Rule = if R::EPSILON < 1e-10 { &FINE } else { &COARSE };
+    let mut view = View {
+        mu,
+        alpha2: alpha * alpha,
+        projected: mu,
+    };
+    view.projected = view.project(mu);
+    directional(mu, alpha, rule, |n_dot_l| visibility(view, n_dot_l))
 }
 
 /// Directional albedo of GGX with F = 1, height-correlated: E(μ) = ∫ D V N·L dω.
@@ -137,10 +260,7 @@ fn directional(n_dot_v: f64, alpha: f64, weight: impl Fn(f64) -> f64) -> f64 {
 /// By quadrature over the disc of slopes; at α = 1 it is 1 − μ ln(1 + 1/μ). 1 at `alpha = 0`
 /// (a mirror); `n_dot_v` at or below 0 gives the limit at grazing.
 pub fn albedo_ggx<R: Real>(n_dot_v: R, alpha: R) -> R {
-    let (mu, a) = (n_dot_v.to_f64(), alpha.to_f64());
-    lit(directional(mu, a, |nl| {
-        v_ggx(nl, mu.max(1e-9), a.abs().max(1e-9))
-    }))
+    albedo(n_dot_v, alpha, View::correlated)
 }
 
 const ALBEDO_GGX: Term = entry!(
@@ -153,10 +273,7 @@ const ALBEDO_GGX: Term = entry!(
 
 /// Directional albedo of GGX with F = 1 and separable G₂, never above [`albedo_ggx`].
 pub fn albedo_ggx_separable<R: Real>(n_dot_v: R, alpha: R) -> R {
-    let (mu, a) = (n_dot_v.to_f64(), alpha.to_f64());
-    lit(directional(mu, a, |nl| {
-        v_ggx_separable(nl, mu.max(1e-9), a.abs().max(1e-9))
-    }))
+    albedo(n_dot_v, alpha, View::separable)
 }
 
 const ALBEDO_GGX_SEPARABLE: Term = entry!(
@@ -171,11 +288,9 @@ const ALBEDO_GGX_SEPARABLE: Term = entry!(
 ///
 /// Too dark when seen straight on, and far above 1 at grazing angles.
 pub fn albedo_ggx_divided_twice<R: Real>(n_dot_v: R, alpha: R) -> R {
-    let (mu, a) = (n_dot_v.to_f64(), alpha.to_f64());
-    let mu = mu.max(1e-9);
-    lit(directional(mu, a, |nl| {
-        v_ggx(nl, mu, a.abs().max(1e-9)) / (4.0 * nl * mu)
-    }))
+    albedo(n_dot_v, alpha, |view, n_dot_l| {
+        view.correlated(n_dot_l) / (lit::<R>(4.0) * n_dot_l * view.mu)
+    })
 }
 
 const ALBEDO_GGX_DIVIDED_TWICE: Term = entry!(
@@ -195,7 +310,7 @@ pub fn share_ratio_above<R: Real>(ratio: R, light_deg: R) -> R {
     if ratio <= lit(0.0) {
         return lit(1.0);
     }
-    let c = (light_deg * lit(std::f64::consts::PI / 360.0)).cos();
+    let c = (light_deg * lit(PI / 360.0)).cos();
     (lit::<R>(0.25) / (ratio * (c * c))).at_most(lit(1.0))
 }
 

@@ -22,8 +22,12 @@ pub trait Real:
     /// A number whose square, and four times that, is still finite: arguments beyond it are
     /// cut off where only their limit matters.
     const LARGE: f64;
+    /// The smallest positive number with full precision.
+    const TINY: f64;
     /// 2^k + 1 with k half the bits of the significand, for Dekker's splitting.
     const SPLITTER: f64;
+    /// How many terms of the series of [`crate::lambda_beckmann`] this precision can use.
+    const ERFC_TERMS: usize;
 
     /// The nearest number to `x`.
     fn of(x: f64) -> Self;
@@ -68,6 +72,12 @@ pub trait Real:
     #[inline(always)]
     fn at_most(self, high: Self) -> Self {
         if high < self { high } else { self }
+    }
+
+    /// Brought into [0, 1].
+    #[inline(always)]
+    fn clamp_unit(self) -> Self {
+        self.at_least(Self::of(0.0)).at_most(Self::of(1.0))
     }
 
     /// x².
@@ -117,6 +127,37 @@ pub trait Real:
     }
 }
 
+/// 0, or NaN where one of the arguments is: what a function returns outside its domain.
+#[inline(always)]
+pub(crate) fn zero_unless_nan<R: Real, const N: usize>(args: [R; N]) -> R {
+    let mut zero = lit(0.0);
+    for arg in args {
+        if arg.is_nan() {
+            zero = arg;
+        }
+    }
+    zero
+}
+
+/// 1 − c² as an unevaluated sum. The rounding error of c² alone is large next to it near c = 1.
+#[inline(always)]
+pub(crate) fn one_minus_square<R: Real>(c: R) -> (R, R) {
+    let (c2, c2_low) = c.two_prod(c);
+    let (high, low) = lit::<R>(1.0).two_sum(-c2);
+    high.two_sum(low - c2_low)
+}
+
+/// The quotient of two unevaluated sums as an unevaluated sum.
+///
+/// The low part is dropped where it is lost to overflow or underflow.
+#[inline(always)]
+pub(crate) fn quotient<R: Real>(n: (R, R), d: (R, R)) -> (R, R) {
+    let q = n.0 / d.0;
+    let (back, back_low) = q.two_prod(d.0);
+    let low = ((n.0 - back) - back_low + n.1 - q * d.1) / d.0;
+    (q, if low.is_finite() { low } else { lit(0.0) })
+}
+
 /// A constant in the precision of the formula around it.
 #[inline(always)]
 pub(crate) fn lit<R: Real>(x: f64) -> R {
@@ -126,7 +167,9 @@ pub(crate) fn lit<R: Real>(x: f64) -> R {
 impl Real for f64 {
     const EPSILON: f64 = f64::EPSILON;
     const LARGE: f64 = 1e150;
+    const TINY: f64 = f64::MIN_POSITIVE;
     const SPLITTER: f64 = 134_217_729.0;
+    const ERFC_TERMS: usize = 27;
 
     #[inline(always)]
     fn of(x: f64) -> f64 {
@@ -187,7 +230,9 @@ impl Real for f64 {
 impl Real for f32 {
     const EPSILON: f64 = f32::EPSILON as f64;
     const LARGE: f64 = 1e15;
+    const TINY: f64 = f32::MIN_POSITIVE as f64;
     const SPLITTER: f64 = 4097.0;
+    const ERFC_TERMS: usize = 14;
 
     #[inline(always)]
     fn of(x: f64) -> f32 {

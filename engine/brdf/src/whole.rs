@@ -1,7 +1,7 @@
 //! Whole BRDFs, put together from the terms.
 
 use crate::d::d_ggx;
-use crate::real::{Real, lit};
+use crate::real::{Real, lit, zero_unless_nan};
 use crate::smith::v_ggx;
 use crate::term::{N_DOT_H, N_DOT_L, N_DOT_V, ROUGHNESS, Term, entry};
 
@@ -13,12 +13,15 @@ pub(crate) const TERMS: &[Term] = &[SPECULAR_GGX];
 /// +∞; 0 below the horizon.
 #[inline(always)]
 pub fn specular_ggx<R: Real>(n_dot_l: R, n_dot_v: R, n_dot_h: R, roughness: R) -> R {
-    let alpha = roughness * roughness;
+    let alpha = roughness
+        .at_most(lit(R::LARGE))
+        .at_least(lit(-R::LARGE))
+        .squared();
     let v = v_ggx(n_dot_l, n_dot_v, alpha);
     let d = d_ggx(n_dot_h, alpha);
     // 0 · ∞ where D is 0 and V on its horizon is not finite: nothing is reflected there.
     if d == lit(0.0) || v == lit(0.0) {
-        lit(0.0)
+        zero_unless_nan([d, v])
     } else {
         d * v
     }

@@ -107,3 +107,25 @@ fn albedos_agree() {
     }
     worst.check(1e-9);
 }
+
+#[test]
+fn albedos_in_single_precision() {
+    let mut worst = Worst::default();
+    for name in ["albedo_ggx", "albedo_ggx_separable"] {
+        let term = term(name).unwrap();
+        for mu in [
+            1e-3f32, 0.003, 0.01, 0.03, 0.06, 0.099, 0.101, 0.15, 0.2, 0.3, 0.5, 0.7, 0.9, 1.0,
+        ] {
+            for alpha in [1e-4f32, 1e-3, 0.01, 0.03, 0.06, 0.1, 0.2, 0.4, 0.7, 1.0] {
+                let value = f64::from((term.f32)(&[mu, alpha]));
+                let truth = (term.f64)(&[f64::from(mu), f64::from(alpha)]);
+                worst.note(
+                    name,
+                    relative(value, truth, 0.0),
+                    format!("{mu} {alpha}: {value}, not {truth}"),
+                );
+            }
+        }
+    }
+    worst.check(1e-5);
+}
