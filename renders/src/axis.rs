@@ -124,8 +124,8 @@ impl Axis {
     }
 
     fn log_ticks(&self, count: usize) -> Vec<Tick> {
-        let first = (self.low.log10() - 1e-9).floor() as i32;
-        let last = (self.high.log10() + 1e-9).ceil() as i32;
+        let first = (self.low.log10() + 1e-9).floor() as i32;
+        let last = (self.high.log10() - 1e-9).ceil() as i32;
         let decades = (last - first).max(1) as usize;
         let every = decades.div_ceil(count.max(1)).max(1) as i32;
         // With few decades the labels 2 and 5 fit in between.
@@ -142,7 +142,8 @@ impl Axis {
                     2 | 5 => between,
                     _ => false,
                 };
-                if labelled || every == 1 {
+                // Where decades stand close, the lines between them would be a hatching.
+                if labelled || (every == 1 && decades * 2 <= count) {
                     let label = if labelled {
                         power(digit, exponent)
                     } else {

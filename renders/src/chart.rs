@@ -4,14 +4,15 @@
 //! plotters' coordinates are whole numbers and a curve that is rounded to pixels shows steps.
 
 use crate::axis::{Axis, Tick};
-use crate::backend::{CanvasBackend, EIGHTHS, FAMILY};
+use crate::backend::{CanvasBackend, EIGHTHS};
 use crate::canvas::{Canvas, png};
-use crate::colour::{LIGHT, Rgb, Theme};
+use crate::colour::{LIGHT, Theme};
 use crate::error::Error;
+use crate::pen::{Frame, Pen, runs};
 use crate::text::{self, Weight};
 use plotters::coord::Shift;
 use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::text_anchor::HPos;
 
 /// A figure of curves, in the units of its axes.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -44,6 +45,11 @@ pub(crate) struct Chart<'a> {
     pub verticals: Vec<(f64, String)>,
     /// Size of the labels' em in pixels; everything else follows it.
     pub em: f64,
+    /// Widths of the curves in ems, from the first on; the last holds for the rest. A wide one
+    /// stays visible where a narrow one lies on it.
+    pub widths: &'a [f64],
+    /// What the marks are, said once in the legend; empty where each has its own label.
+    pub marks_are: &'a str,
 }
 
 /// A plot as an SVG document of `width` by `height` pixels.
@@ -100,16 +106,9 @@ fn page(spec: &PlotSpec, width: u32, height: u32) -> Chart<'_> {
         bands: Vec::new(),
         verticals: Vec::new(),
         em,
+        widths: &[0.17],
+        marks_are: "",
     }
-}
-
-/// The part of the picture between the axes, in pixels.
-#[derive(Clone, Copy)]
-struct Frame {
-    left: f64,
-    top: f64,
-    right: f64,
-    bottom: f64,
 }
 
 impl Chart<'_> {
@@ -191,7 +190,7 @@ impl Chart<'_> {
                 "{width} by {height} pixels leave no room for the plot"
             )));
         }
-        let x_ticks = x_axis.ticks(((frame.right - frame.left) / (5.5 * em)).max(2.0) as usize);
+        let x_ticks = x_axis.ticks(((frame.right - frame.left) / (7.0 * em)).max(2.0) as usize);
 
         if title > 0.0 {
             let size = 1.3 * em;
@@ -216,8 +215,14 @@ impl Chart<'_> {
         self.draw_bands(&pen, frame, &x_axis)?;
         for (index, (_, points)) in self.spec.series.iter().enumerate() {
             let colour = self.theme.series[index % self.theme.series.len()];
+            let width = self
+                .widths
+                .get(index)
+                .or(self.widths.last())
+                .copied()
+                .unwrap_or(0.17);
             for run in runs(points, &x_axis, &y_axis, frame) {
-                pen.path(&run, 0.17 * em, colour, 1.0)?;
+                pen.path(&run, width * em, colour, 1.0)?;
             }
         }
         self.draw_marks(&pen, frame, &x_axis, &y_axis)?;
@@ -243,7 +248,7 @@ impl Chart<'_> {
     /// The names of the curves, broken into rows of at most `width` pixels.
     fn legend_rows(&self, width: f64) -> Vec<Vec<usize>> {
         let mut rows: Vec<Vec<usize>> = Vec::new();
-        let mut used = f64::INFINITY;
+        let mut used = 0.0;
         for (index, (name, _)) in self.spec.series.iter().enumerate() {
             if name.is_empty() {
                 continue;
@@ -296,6 +301,23 @@ impl Chart<'_> {
                     name,
                 )?;
                 x += self.legend_width(name);
+            }
+            // What the marks are stands after the last curve.
+            if row_index + 1 == rows.len()
+                && !self.marks_are.is_empty()
+                && !self.spec.marks.is_empty()
+            {
+                pen.disc(x + 0.9 * em, y - 0.36 * em, 0.3 * em, self.theme.ink)?;
+                let at = x + 2.3 * em;
+                pen.text(
+                    at,
+                    y,
+                    em,
+                    Weight::Regular,
+                    HPos::Left,
+                    self.theme.ink,
+                    self.marks_are,
+                )?;
             }
         }
         Ok(())
@@ -392,18 +414,12 @@ impl Chart<'_> {
                 )?;
                 y += 0.7 * em;
             }
-            let width = f64::from(text::width(says, 0.9 * em as f32, Weight::Regular));
-            let (start, align) = if x + width + em > frame.right {
-                (x - 0.4 * em, HPos::Right)
-            } else {
-                (x + 0.4 * em, HPos::Left)
-            };
             pen.text(
-                start,
-                frame.top + 1.1 * em,
+                x,
+                frame.top - 0.45 * em,
                 0.9 * em,
                 Weight::Regular,
-                align,
+                HPos::Center,
                 self.theme.faint,
                 says,
             )?;
@@ -448,174 +464,5 @@ impl Chart<'_> {
             )?;
         }
         Ok(())
-    }
-}
-
-impl Frame {
-    fn x(self, axis: &Axis, value: f64) -> f64 {
-        self.left + axis.share(value) * (self.right - self.left)
-    }
-
-    fn y(self, axis: &Axis, value: f64) -> f64 {
-        self.bottom - axis.share(value) * (self.bottom - self.top)
-    }
-}
-
-/// A curve as runs of drawable points in pixels, cut where it leaves the frame's top or bottom.
-fn runs(points: &[(f64, f64)], x_axis: &Axis, y_axis: &Axis, frame: Frame) -> Vec<Vec<(f64, f64)>> {
-    let mut runs: Vec<Vec<(f64, f64)>> = Vec::new();
-    let mut previous: Option<(f64, f64)> = None;
-    for &(x, y) in points {
-        let (u, v) = (x_axis.share(x), y_axis.share(y));
-        let here =
-            (u.is_finite() && v.is_finite() && (-1e-9..=1.0 + 1e-9).contains(&u)).then_some((u, v));
-        let segment = previous.zip(here).and_then(|(from, to)| clip(from, to));
-        if let Some((from, to)) = segment {
-            let pixel = |(u, v): (f64, f64)| {
-                (
-                    frame.left + u * (frame.right - frame.left),
-                    frame.bottom - v * (frame.bottom - frame.top),
-                )
-            };
-            let (from, to) = (pixel(from), pixel(to));
-            match runs.last_mut() {
-                Some(run) if run.last() == Some(&from) => run.push(to),
-                _ => runs.push(vec![from, to]),
-            }
-        }
-        previous = here;
-    }
-    runs
-}
-
-/// The part of a segment between the heights 0 and 1.
-fn clip(from: (f64, f64), to: (f64, f64)) -> Option<((f64, f64), (f64, f64))> {
-    let at = |height: f64| {
-        let t = (height - from.1) / (to.1 - from.1);
-        (from.0 + t * (to.0 - from.0), height)
-    };
-    if from.1.max(to.1) < 0.0 || from.1.min(to.1) > 1.0 {
-        return None;
-    }
-    let inside = |point: (f64, f64)| match point.1 {
-        v if v < 0.0 => at(0.0),
-        v if v > 1.0 => at(1.0),
-        _ => point,
-    };
-    Some((inside(from), inside(to)))
-}
-
-/// Draws in pixels on a plotters area that counts in eighths.
-struct Pen<'a, B: DrawingBackend> {
-    area: &'a DrawingArea<B, Shift>,
-}
-
-fn eighths(pixels: f64) -> i32 {
-    (pixels * EIGHTHS).round() as i32
-}
-
-fn rgba(colour: Rgb, opacity: f64) -> RGBAColor {
-    RGBColor(colour[0], colour[1], colour[2]).mix(opacity)
-}
-
-impl<B: DrawingBackend> Pen<'_, B> {
-    fn draw<'e, E>(&self, element: &'e E) -> Result<(), Error>
-    where
-        E: plotters::element::Drawable<B>,
-        &'e E: plotters::element::PointCollection<'e, (i32, i32)>,
-    {
-        self.area
-            .draw(element)
-            .map_err(|e| Error::Plot(e.to_string()))
-    }
-
-    fn rect(
-        &self,
-        left: f64,
-        top: f64,
-        right: f64,
-        bottom: f64,
-        colour: Rgb,
-        opacity: f64,
-    ) -> Result<(), Error> {
-        let corners = [
-            (eighths(left), eighths(top)),
-            (eighths(right), eighths(bottom)),
-        ];
-        self.draw(&Rectangle::new(corners, rgba(colour, opacity).filled()))
-    }
-
-    fn path(
-        &self,
-        points: &[(f64, f64)],
-        width: f64,
-        colour: Rgb,
-        opacity: f64,
-    ) -> Result<(), Error> {
-        let points: Vec<(i32, i32)> = points
-            .iter()
-            .map(|&(x, y)| (eighths(x), eighths(y)))
-            .collect();
-        let style = rgba(colour, opacity).stroke_width(eighths(width).max(1) as u32);
-        self.draw(&PathElement::new(points, style))
-    }
-
-    fn disc(&self, x: f64, y: f64, radius: f64, colour: Rgb) -> Result<(), Error> {
-        self.draw(&Circle::new(
-            (eighths(x), eighths(y)),
-            eighths(radius),
-            rgba(colour, 1.0).filled(),
-        ))
-    }
-
-    #[expect(
-        clippy::too_many_arguments,
-        reason = "a text has a place, a look and a content"
-    )]
-    fn text(
-        &self,
-        x: f64,
-        baseline: f64,
-        em: f64,
-        weight: Weight,
-        align: HPos,
-        colour: Rgb,
-        line: &str,
-    ) -> Result<(), Error> {
-        let style = self.style(em, weight, align, colour);
-        // plotters hangs a text 0.76 em below its top: from the baseline that is upwards.
-        self.area
-            .draw_text(line, &style, (eighths(x), eighths(baseline - 0.76 * em)))
-            .map_err(|e| Error::Plot(e.to_string()))
-    }
-
-    fn text_up(
-        &self,
-        baseline: f64,
-        y: f64,
-        em: f64,
-        colour: Rgb,
-        line: &str,
-    ) -> Result<(), Error> {
-        let style = self
-            .style(em, Weight::Regular, HPos::Center, colour)
-            .transform(FontTransform::Rotate270);
-        self.area
-            .draw_text(line, &style, (eighths(baseline - 0.76 * em), eighths(y)))
-            .map_err(|e| Error::Plot(e.to_string()))
-    }
-
-    fn style(&self, em: f64, weight: Weight, align: HPos, colour: Rgb) -> TextStyle<'static> {
-        let slant = match weight {
-            Weight::Regular => FontStyle::Normal,
-            Weight::Bold => FontStyle::Bold,
-        };
-        // plotters divides the size of a font by 1.24 to get the em.
-        let font = FontDesc::new(FontFamily::Name(FAMILY), em * EIGHTHS * 1.24, slant);
-        TextStyle {
-            font,
-            color: rgba(colour, 1.0).to_backend_color(),
-            pos: Pos::new(align, VPos::Top),
-        }
     }
 }

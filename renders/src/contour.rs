@@ -4,16 +4,16 @@ use crate::shade::Shaded;
 
 /// Segments of the contour in pixels, by marching over the squares between pixel centres.
 pub(crate) fn ratio_one(shaded: &Shaded, size: usize) -> Vec<[(f32, f32); 2]> {
-    // Only whole lit pixels: on an edge pixel the ratio is a mean of something else.
+    // Only whole lit pixels: an edge pixel's mean belongs to a part of it.
     let field = |column: usize, row: usize| {
         let index = row * size + column;
-        (shaded.lit[index] > 0.99).then(|| (shaded.wrong[index] / shaded.right[index]).log2())
+        (shaded.lit[index] > 0.99).then(|| shaded.stops[index])
     };
     let mut segments = Vec::new();
     for row in 0..size.saturating_sub(1) {
         for column in 0..size.saturating_sub(1) {
             let corners = [(0, 0), (1, 0), (1, 1), (0, 1)];
-            let values = corners.map(|(dx, dy)| field(column + dx, row + dy).unwrap_or(f64::NAN));
+            let values = corners.map(|(dx, dy)| field(column + dx, row + dy).unwrap_or(f32::NAN));
             // Rounding alone is not a crossing.
             let clear = values.iter().any(|v| v.abs() > 1e-6);
             if !clear || values.iter().any(|v| !v.is_finite()) {
@@ -23,7 +23,7 @@ pub(crate) fn ratio_one(shaded: &Shaded, size: usize) -> Vec<[(f32, f32); 2]> {
             for side in 0..4 {
                 let (a, b) = (values[side], values[(side + 1) % 4]);
                 if (a < 0.0) != (b < 0.0) {
-                    let t = (a / (a - b)) as f32;
+                    let t = a / (a - b);
                     let at = |corner: (usize, usize)| {
                         (
                             (column + corner.0) as f32 + 0.5,

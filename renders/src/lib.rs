@@ -18,6 +18,7 @@ mod contour;
 mod cpu;
 mod error;
 mod gpu;
+mod pen;
 mod picture;
 mod profile;
 mod sample;
@@ -38,7 +39,7 @@ pub use visibility::Visibility;
 use crate::cpu::Cpu;
 use crate::gpu::{Gpu, Wanted};
 use crate::sample::Panel;
-use crate::shade::{Engine, Shaded, shade};
+use crate::shade::{Engine, Job, Shaded, shade};
 use formula::{Expr, Library};
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
@@ -46,6 +47,8 @@ use std::time::Instant;
 /// Largest panel in pixels a side.
 pub const MAX_SIZE: u32 = 4096;
 const MIN_SIZE: u32 = 16;
+/// Panels smaller than this are drawn without text: it could not be read.
+const LEAST_WITH_TEXT: u32 = 96;
 
 /// One bug as a picture: what is right and what is wrong, on a sphere.
 #[derive(Clone, Debug)]
@@ -90,7 +93,8 @@ pub struct Options {
     pub backend: Backend,
     /// Leave out what the picture does not need. Without it the picture is the same and slower.
     pub skip: bool,
-    /// Only the three panels, without any text: for a terminal, where a character is too coarse.
+    /// Only the three panels, without any text: for a terminal whose cells are coarser than
+    /// letters. Panels under 96 pixels are always drawn so.
     pub compact: bool,
 }
 
@@ -170,12 +174,12 @@ pub fn render(
     cancel: &AtomicBool,
 ) -> Result<Picture, Error> {
     let start = Instant::now();
-    let drawn = draw_panels(fingerprint, options, cancel)?;
     let profile = profile::Profile::of(fingerprint)?;
     let exposure = profile.exposure();
-    let visibility = visibility::measure(fingerprint, &drawn.shaded, exposure)?;
-    let canvas = if options.compact {
-        picture::compact(&drawn.panel, &drawn.shaded, exposure)
+    let drawn = draw_panels(fingerprint, options, exposure, cancel)?;
+    let visibility = visibility::measure(fingerprint, &drawn.shaded)?;
+    let canvas = if options.compact || options.size < LEAST_WITH_TEXT {
+        picture::compact(&drawn.panel, &drawn.shaded)
     } else {
         picture::full(
             fingerprint,
@@ -211,7 +215,7 @@ pub fn render(
 /// # Errors
 /// As [`render`].
 pub fn raw(fingerprint: &Fingerprint<'_>, options: &Options) -> Result<Raw, Error> {
-    let drawn = draw_panels(fingerprint, options, &AtomicBool::new(false))?;
+    let drawn = draw_panels(fingerprint, options, 1.0, &AtomicBool::new(false))?;
     Ok(Raw {
         size: options.size,
         right: drawn.shaded.right,
@@ -231,6 +235,7 @@ struct Drawn {
 fn draw_panels(
     fingerprint: &Fingerprint<'_>,
     options: &Options,
+    exposure: f64,
     cancel: &AtomicBool,
 ) -> Result<Drawn, Error> {
     if !(MIN_SIZE..=MAX_SIZE).contains(&options.size) {
@@ -258,7 +263,13 @@ fn draw_panels(
         geometry: scene.geometry(),
         everywhere: !options.skip,
     };
-    let shaded = shade(&panel, &engine, options.skip, cancel)?;
+    let job = Job {
+        panel,
+        mirror: options.skip,
+        exposure,
+        cancel,
+    };
+    let shaded = shade(&job, &engine)?;
     let (backend, adapter) = match &engine {
         Engine::Cpu(_) => ("cpu", None),
         Engine::Gpu(gpu) => ("gpu", Some(gpu.adapter.clone())),

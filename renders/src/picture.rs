@@ -15,7 +15,7 @@ use crate::{Error, Fingerprint};
 const UNLIT: Rgb = [9, 10, 13];
 
 /// Only the panels, for a terminal.
-pub(crate) fn compact(panel: &Panel, shaded: &Shaded, exposure: f64) -> Canvas {
+pub(crate) fn compact(panel: &Panel, shaded: &Shaded) -> Canvas {
     let size = panel.size;
     let gap = (size / 32).max(1);
     let mut canvas = Canvas::new(3 * size + 2 * gap, size, DARK.paper);
@@ -23,7 +23,6 @@ pub(crate) fn compact(panel: &Panel, shaded: &Shaded, exposure: f64) -> Canvas {
         &mut canvas,
         panel,
         shaded,
-        exposure,
         [0, size + gap, 2 * (size + gap)],
         0,
     );
@@ -84,9 +83,9 @@ pub(crate) fn full(
     );
     let top = (margin + 1.4 * em + caption.len() as f32 * 1.55 * em + 4.2 * em).round();
     let below = top + size + 1.1 * em;
-    let chart_height = 0.66 * size;
-    let notes = notes(fingerprint, exposure);
-    let height = below + chart_height + (1.2 + 1.5 * notes.len() as f32) * em + 0.6 * margin;
+    let chart_height = 0.74 * size;
+    let notes = notes(fingerprint, profile, exposure);
+    let height = below + chart_height + (0.4 + 1.5 * notes.len() as f32) * em + 0.7 * margin;
     let mut canvas = Canvas::new(width as usize, height.round() as usize, DARK.paper);
 
     let title = shorten(
@@ -120,8 +119,9 @@ pub(crate) fn full(
     }
 
     let columns = [0, 1, 2].map(|index| layout.column(index) as usize);
-    panels(&mut canvas, panel, shaded, exposure, columns, top as usize);
+    panels(&mut canvas, panel, shaded, columns, top as usize);
     headings(&mut canvas, &layout, fingerprint, top);
+    equator_ticks(&mut canvas, &layout, top);
     let chart_width = 2.0 * size + layout.gap;
     draw_profile(
         &mut canvas,
@@ -135,7 +135,7 @@ pub(crate) fn full(
     colour_bar(&mut canvas, right, below, size, em);
     figures(&mut canvas, right, below + 4.6 * em, size, em, visibility);
 
-    let mut y = below + chart_height + 1.0 * em;
+    let mut y = below + chart_height + 0.2 * em;
     for note in &notes {
         y += 1.5 * em;
         let note = shorten(note, 0.95 * em, Weight::Regular, width - 2.0 * margin);
@@ -153,14 +153,7 @@ pub(crate) fn full(
 }
 
 /// Paints the three panels with their left edges at `columns`.
-fn panels(
-    canvas: &mut Canvas,
-    panel: &Panel,
-    shaded: &Shaded,
-    exposure: f64,
-    columns: [usize; 3],
-    top: usize,
-) {
+fn panels(canvas: &mut Canvas, panel: &Panel, shaded: &Shaded, columns: [usize; 3], top: usize) {
     let size = panel.size;
     let encode = EncodeTable::new();
     let surround = DARK.panel.map(srgb_decode);
@@ -169,21 +162,20 @@ fn panels(
             let index = row * size + column;
             let cover = panel.cover(column, row);
             for (left, value) in [
-                (columns[0], shaded.right[index]),
-                (columns[1], shaded.wrong[index]),
+                (columns[0], shaded.right_seen[index]),
+                (columns[1], shaded.wrong_seen[index]),
             ] {
                 let colour = if cover == 0.0 {
                     DARK.panel
                 } else {
-                    surround.map(|behind| encode.byte(value * exposure + (1.0 - cover) * behind))
+                    surround.map(|behind| encode.byte(f64::from(value) + (1.0 - cover) * behind))
                 };
                 canvas.set((left + column) as i32, (top + row) as i32, colour);
             }
             let lit = f64::from(shaded.lit[index]);
             let mut colour = mix(DARK.panel, UNLIT, cover);
             if lit > 0.0 {
-                let ratio = (shaded.wrong[index] / shaded.right[index]).log2();
-                colour = mix(colour, diverging(ratio), lit);
+                colour = mix(colour, diverging(f64::from(shaded.stops[index])), lit);
             }
             canvas.set((columns[2] + column) as i32, (top + row) as i32, colour);
         }
@@ -251,6 +243,22 @@ fn headings(canvas: &mut Canvas, layout: &Layout, fingerprint: &Fingerprint<'_>,
     }
 }
 
+/// Short lines beside the panels at the height of the equator, along which the profile runs.
+fn equator_ticks(canvas: &mut Canvas, layout: &Layout, top: f32) {
+    let y = top + layout.size / 2.0;
+    for index in 0..3 {
+        let (left, length) = (layout.column(index), 0.5 * layout.em);
+        for x in [left, left + layout.size - length] {
+            canvas.stroke(
+                &[(x, y), (x + length, y)],
+                layout.em / 10.0,
+                DARK.faint,
+                1.0,
+            );
+        }
+    }
+}
+
 fn colour_bar(canvas: &mut Canvas, left: f32, top: f32, width: f32, em: f32) {
     let height = 1.1 * em;
     for column in 0..width as usize {
@@ -299,9 +307,11 @@ fn short(value: f64) -> String {
         return formula::format_number(value, formula::Digits::Significant(3));
     }
     let digits = match value.abs() {
+        v if v < 1e-6 => return "0".to_owned(),
+        v if v < 1e-4 => return "< 0.0001".to_owned(),
         v if v >= 100.0 => 0,
         v if v >= 10.0 => 1,
-        v if v >= 0.1 || v == 0.0 => 2,
+        v if v >= 0.1 => 2,
         v if v >= 0.01 => 3,
         _ => 4,
     };
@@ -334,8 +344,8 @@ fn figures(canvas: &mut Canvas, left: f32, top: f32, width: f32, em: f32, visibi
             "terminator step / highlight",
             short(visibility.terminator_step),
         ),
-        ("pixels visibly brighter", percent(brighter)),
-        ("pixels visibly dimmer", percent(dimmer)),
+        ("pixels brighter by > 8/255", percent(brighter)),
+        ("pixels dimmer by > 8/255", percent(dimmer)),
     ];
     let mut y = top;
     for (name, value) in rows {
@@ -373,7 +383,7 @@ fn draw_profile(
     let spec = PlotSpec {
         x_label: "position across the sphere, along the equator (the light is on the right)"
             .to_owned(),
-        y_label: "exposed radiance, 1 = white".to_owned(),
+        y_label: "radiance (1 = white)".to_owned(),
         y_log: true,
         series: vec![
             ("correct".to_owned(), curve(|p| p.right)),
@@ -382,12 +392,12 @@ fn draw_profile(
         marks: profile
             .crossings()
             .into_iter()
-            .map(|(position, value)| ("equal".to_owned(), position, value * exposure))
+            .map(|(position, value)| (String::new(), position, value * exposure))
             .collect(),
         ..PlotSpec::default()
     };
-    // What happens in the last half per cent before rim and terminator would squeeze the rest.
-    let inner = |p: &&crate::ProfilePoint| p.n_dot_l > 0.004 && p.n_dot_v > 0.004;
+    // What happens in the last pixel before rim and terminator would squeeze the rest.
+    let inner = |p: &&crate::ProfilePoint| p.n_dot_l > 0.02 && p.n_dot_v > 0.02;
     let shown = || {
         profile
             .points
@@ -395,11 +405,14 @@ fn draw_profile(
             .filter(inner)
             .flat_map(|p| [p.right * exposure, p.wrong * exposure])
     };
-    let high = shown().filter(|v| v.is_finite()).fold(1.0, f64::max);
+    let high = shown()
+        .filter(|v| v.is_finite())
+        .fold(1.0, f64::max)
+        .min(100.0);
     let low = shown()
         .filter(|v| *v > 0.0)
         .fold(f64::INFINITY, f64::min)
-        .clamp(high * 1e-5, 0.2);
+        .clamp(high * 1e-6, 0.2);
     let chart = Chart {
         spec: &spec,
         theme: &DARK,
@@ -412,6 +425,8 @@ fn draw_profile(
         },
         verticals: vec![(geometry.highlight().sin(), "highlight".to_owned())],
         em: f64::from(em),
+        widths: &[0.3, 0.16],
+        marks_are: "equal",
     };
     chart.on_canvas(
         canvas,
@@ -423,7 +438,7 @@ fn draw_profile(
 }
 
 /// The lines at the foot: scene and exposure.
-fn notes(fingerprint: &Fingerprint<'_>, exposure: f64) -> Vec<String> {
+fn notes(fingerprint: &Fingerprint<'_>, profile: &Profile, exposure: f64) -> Vec<String> {
     let scene = &fingerprint.scene;
     let number = |value: f64| {
         let text = format!("{value:.4}");
@@ -442,10 +457,22 @@ fn notes(fingerprint: &Fingerprint<'_>, exposure: f64) -> Vec<String> {
     line.push_str(" · orthographic eye, distant light");
     let share = formula::format_number(100.0 * HIGHLIGHT_SHARE, formula::Digits::Decimals(0));
     let exposure = formula::format_number(exposure, formula::Digits::Significant(3));
-    vec![
+    let mut notes = vec![
         line,
         format!(
             "exposure × {exposure}, the same for both: the brightest correct point is at {share} % of white; brighter than white is cut off"
         ),
-    ]
+    ];
+    match profile.rim_growth {
+        growth if growth > 1.9 => notes.push(
+            "at the rim the buggy value grows as 1/(N·V)²: the light it adds has no limit, it grows with the picture's size"
+                .to_owned(),
+        ),
+        growth if growth > 0.5 => notes.push(
+            "at the rim the buggy value grows as 1/(N·V), without bound: the outermost pixels get brighter as the picture gets larger"
+                .to_owned(),
+        ),
+        _ => {}
+    }
+    notes
 }

@@ -71,6 +71,9 @@ pub(crate) fn at_angles(
 /// A dense profile, kept to draw the curves and to choose the exposure.
 pub(crate) struct Profile {
     pub points: Vec<ProfilePoint>,
+    /// The power of 1/(N·V) with which the wrong value grows towards the rim: 0 where it is
+    /// finite there, 2 where its sum over the picture is not.
+    pub rim_growth: f64,
 }
 
 /// The brightest correct point is shown at this share of white.
@@ -78,8 +81,12 @@ pub(crate) const HIGHLIGHT_SHARE: f64 = 0.95;
 
 impl Profile {
     pub fn of(fingerprint: &Fingerprint<'_>) -> Result<Self, Error> {
+        let near_rim = [1e-4, 1e-5].map(|n_dot_v: f64| n_dot_v.acos());
+        let ends = at_angles(fingerprint, &near_rim)?;
+        let rim_growth = (ends[1].wrong / ends[0].wrong).log10();
         Ok(Self {
             points: along(fingerprint, 1024)?,
+            rim_growth,
         })
     }
 

@@ -42,11 +42,17 @@ impl Engine {
 pub(crate) struct Shaded {
     pub right: Vec<f64>,
     pub wrong: Vec<f64>,
+    /// What is seen of each pixel: every sample exposed and cut at white before it is averaged.
+    /// A rim far brighter than white would else show stairs.
+    pub right_seen: Vec<f32>,
+    pub wrong_seen: Vec<f32>,
     /// The share of each pixel that is lit and seen.
     pub lit: Vec<f32>,
-    /// Lit area in pixels, and the part of it in which the wrong value is the greater.
-    pub lit_area: f64,
-    pub brighter_area: f64,
+    /// The share of each pixel in which the wrong value is the greater.
+    pub brighter: Vec<f32>,
+    /// Mean over each pixel's lit part of log2(wrong / right).
+    pub stops: Vec<f32>,
+    /// Pixels that were evaluated.
     pub pixels: u64,
 }
 
@@ -55,85 +61,115 @@ impl Shaded {
         Self {
             right: vec![0.0; pixels],
             wrong: vec![0.0; pixels],
+            right_seen: vec![0.0; pixels],
+            wrong_seen: vec![0.0; pixels],
             lit: vec![0.0; pixels],
-            ..Self::default()
+            brighter: vec![0.0; pixels],
+            stops: vec![0.0; pixels],
+            pixels: 0,
         }
     }
 
     /// Adds the samples of the rows that start at pixel `first`.
-    fn add(&mut self, samples: &Samples, values: &Values, first: usize) {
-        let (mut lit_area, mut brighter_area) = (0.0, 0.0);
+    fn add(&mut self, samples: &Samples, values: &Values, first: usize, exposure: f64) {
+        let seen = |value: f64| (value * exposure).min(1.0) as f32;
         for (index, &(pixel, share)) in samples.pixel.iter().enumerate() {
             if share == 0.0 {
                 continue;
             }
             let pixel = pixel as usize - first;
-            let (right, wrong, area) = (values.right[index], values.wrong[index], f64::from(share));
-            self.right[pixel] += area * right;
-            self.wrong[pixel] += area * wrong;
+            let (right, wrong) = (values.right[index], values.wrong[index]);
+            self.right[pixel] += f64::from(share) * right;
+            self.wrong[pixel] += f64::from(share) * wrong;
+            self.right_seen[pixel] += share * seen(right);
+            self.wrong_seen[pixel] += share * seen(wrong);
             self.lit[pixel] += share;
-            lit_area += area;
-            brighter_area += if wrong > right { area } else { 0.0 };
+            self.brighter[pixel] += if wrong > right { share } else { 0.0 };
+            self.stops[pixel] += share * stops(wrong / right);
         }
-        self.lit_area += lit_area;
-        self.brighter_area += brighter_area;
+        for (stops, lit) in self.stops.iter_mut().zip(&self.lit) {
+            *stops /= lit.max(f32::MIN_POSITIVE);
+        }
         self.pixels += samples.pixels;
+    }
+
+    fn append(&mut self, below: &Self) {
+        self.right.extend_from_slice(&below.right);
+        self.wrong.extend_from_slice(&below.wrong);
+        self.right_seen.extend_from_slice(&below.right_seen);
+        self.wrong_seen.extend_from_slice(&below.wrong_seen);
+        self.lit.extend_from_slice(&below.lit);
+        self.brighter.extend_from_slice(&below.brighter);
+        self.stops.extend_from_slice(&below.stops);
+        self.pixels += below.pixels;
+    }
+
+    /// Adds a copy of these pixels at the end, which were evaluated already.
+    fn append_copy(&mut self, pixels: std::ops::Range<usize>) {
+        self.right.extend_from_within(pixels.clone());
+        self.wrong.extend_from_within(pixels.clone());
+        self.right_seen.extend_from_within(pixels.clone());
+        self.wrong_seen.extend_from_within(pixels.clone());
+        self.lit.extend_from_within(pixels.clone());
+        self.brighter.extend_from_within(pixels.clone());
+        self.stops.extend_from_within(pixels);
     }
 }
 
-/// Shades a whole panel. Bands are summed in their order, so the result does not depend on how
-/// many threads there are.
-pub(crate) fn shade(
-    panel: &Panel,
-    engine: &Engine,
-    mirror: bool,
-    cancel: &AtomicBool,
-) -> Result<Shaded, Error> {
-    let size = panel.size;
-    let rows = if mirror { size.div_ceil(2) } else { size };
+/// A ratio in stops, within what a mean can bear; 0/0 says nothing and counts as equal.
+fn stops(ratio: f64) -> f32 {
+    const MOST: f32 = 64.0;
+    if ratio.is_nan() {
+        0.0
+    } else {
+        (ratio as f32).log2().clamp(-MOST, MOST)
+    }
+}
+
+/// What is shaded and how.
+pub(crate) struct Job<'a> {
+    pub panel: Panel,
+    /// Evaluate the upper half only: the lower is its mirror image.
+    pub mirror: bool,
+    pub exposure: f64,
+    pub cancel: &'a AtomicBool,
+}
+
+/// Shades a whole panel. Bands are put together in their order, so the result does not depend
+/// on how many threads there are.
+pub(crate) fn shade(job: &Job<'_>, engine: &Engine) -> Result<Shaded, Error> {
+    let size = job.panel.size;
+    let rows = if job.mirror { size.div_ceil(2) } else { size };
+    let band = |first: usize, last: usize| {
+        if job.cancel.load(Ordering::Relaxed) {
+            return Err(Error::Cancelled);
+        }
+        let samples = job.panel.samples(first, last);
+        let mut part = Shaded::empty((last - first) * size);
+        part.add(
+            &samples,
+            &engine.evaluate(&samples)?,
+            first * size,
+            job.exposure,
+        );
+        Ok(part)
+    };
     let mut shaded = match engine {
         Engine::Cpu(_) => {
-            let bands: Vec<usize> = (0..rows).step_by(BAND).collect();
-            let band = |&first: &usize| {
-                if cancel.load(Ordering::Relaxed) {
-                    return Err(Error::Cancelled);
-                }
-                let last = (first + BAND).min(rows);
-                let samples = panel.samples(first, last);
-                let mut part = Shaded::empty((last - first) * size);
-                part.add(&samples, &engine.evaluate(&samples)?, first * size);
-                Ok(part)
-            };
-            let parts: Result<Vec<Shaded>, Error> = bands.par_iter().map(band).collect();
+            let starts: Vec<usize> = (0..rows).step_by(BAND).collect();
+            let parts: Result<Vec<Shaded>, Error> = starts
+                .par_iter()
+                .map(|&first| band(first, (first + BAND).min(rows)))
+                .collect();
             let mut whole = Shaded::default();
-            for part in parts? {
-                whole.right.extend(part.right);
-                whole.wrong.extend(part.wrong);
-                whole.lit.extend(part.lit);
-                whole.lit_area += part.lit_area;
-                whole.brighter_area += part.brighter_area;
-                whole.pixels += part.pixels;
-            }
+            parts?.iter().for_each(|part| whole.append(part));
             whole
         }
-        Engine::Gpu(_) => {
-            let samples = panel.samples(0, rows);
-            if cancel.load(Ordering::Relaxed) {
-                return Err(Error::Cancelled);
-            }
-            let mut whole = Shaded::empty(rows * size);
-            whole.add(&samples, &engine.evaluate(&samples)?, 0);
-            whole
-        }
+        Engine::Gpu(_) => band(0, rows)?,
     };
-    if mirror {
-        for row in rows..size {
-            let twin = size - 1 - row;
-            let range = twin * size..(twin + 1) * size;
-            shaded.right.extend_from_within(range.clone());
-            shaded.wrong.extend_from_within(range.clone());
-            shaded.lit.extend_from_within(range);
-        }
+    for row in rows..size {
+        let twin = size - 1 - row;
+        shaded.append_copy(twin * size..(twin + 1) * size);
     }
     Ok(shaded)
 }

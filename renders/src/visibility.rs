@@ -20,18 +20,14 @@ pub struct Visibility {
     /// highlight: of the wrong formula, and of the right one.
     pub rim_over_highlight: (f64, f64),
     /// What the wrong value jumps by where the light ends, over its own highlight: 0 where it
-    /// fades out as it should.
+    /// fades out as it should, or where the light stands behind the eye and has no terminator.
     pub terminator_step: f64,
     /// Share of the lit pixels whose sRGB value, at the picture's exposure, changes by more than
     /// 8 of 255: upwards, and downwards.
     pub changed_8: (f64, f64),
 }
 
-pub(crate) fn measure(
-    fingerprint: &Fingerprint<'_>,
-    shaded: &Shaded,
-    exposure: f64,
-) -> Result<Visibility, Error> {
+pub(crate) fn measure(fingerprint: &Fingerprint<'_>, shaded: &Shaded) -> Result<Visibility, Error> {
     let geometry = fingerprint.scene.geometry();
     let (terminator, _) = geometry.lit_equator();
     // Just inside: the limit from the lit side, not the value at the edge itself.
@@ -39,15 +35,19 @@ pub(crate) fn measure(
     let (highlight, edge) = (on_equator[0], on_equator[1]);
     let rim = rim_median(fingerprint)?;
 
-    // The sphere's disc in the same unit, pixels.
-    let disc = disc_area(shaded);
-    let (brighter, dimmer) = changed(shaded, exposure);
+    let area = |shares: &[f32]| shares.iter().map(|&share| f64::from(share)).sum::<f64>();
+    let (brighter_area, lit_area) = (area(&shaded.brighter), area(&shaded.lit));
+    let (brighter, dimmer) = changed(shaded);
     Ok(Visibility {
-        lit_above_one: share(shaded.brighter_area, shaded.lit_area),
-        disc_above_one: share(shaded.brighter_area, disc),
+        lit_above_one: share(brighter_area, lit_area),
+        disc_above_one: share(brighter_area, disc_area(shaded)),
         ratio_at_highlight: highlight.ratio,
         rim_over_highlight: (rim.0 / highlight.wrong, rim.1 / highlight.right),
-        terminator_step: edge.wrong / highlight.wrong,
+        terminator_step: if terminator > -1.5 {
+            edge.wrong / highlight.wrong
+        } else {
+            0.0
+        },
         changed_8: (brighter, dimmer),
     })
 }
@@ -95,15 +95,15 @@ fn median(mut values: Vec<f64>) -> f64 {
 }
 
 /// Shares of the lit pixels that become visibly brighter and dimmer.
-fn changed(shaded: &Shaded, exposure: f64) -> (f64, f64) {
+fn changed(shaded: &Shaded) -> (f64, f64) {
     let (mut lit, mut brighter, mut dimmer) = (0_u64, 0_u64, 0_u64);
     for index in 0..shaded.lit.len() {
         if shaded.lit[index] == 0.0 {
             continue;
         }
         lit += 1;
-        let level = |value: f64| 255.0 * srgb_encode(value * exposure);
-        let change = level(shaded.wrong[index]) - level(shaded.right[index]);
+        let level = |seen: f32| 255.0 * srgb_encode(f64::from(seen));
+        let change = level(shaded.wrong_seen[index]) - level(shaded.right_seen[index]);
         brighter += u64::from(change > 8.0);
         dimmer += u64::from(change < -8.0);
     }

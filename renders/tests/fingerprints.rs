@@ -1,0 +1,301 @@
+//! The pictures against closed forms: what a bug does at the landmarks of the sphere.
+
+use formula::{Expr, Library};
+use renders::{Backend, Error, Fingerprint, Options, RADIUS_SHARE, Scene, profile, raw, render};
+use std::sync::atomic::AtomicBool;
+
+const CORRECT: &str = "d_ggx() * v_ggx() * f_schlick() * n_dot_l";
+const DIVIDED_TWICE: &str = "d_ggx() * v_ggx() * f_schlick() * n_dot_l / (4 * n_dot_l * n_dot_v)";
+
+struct Bug {
+    library: Library,
+    right: Expr,
+    wrong: Expr,
+    scene: Scene,
+}
+
+fn bug(right: &str, wrong: &str, roughness: f64, f0: f64, light_deg: f64) -> Bug {
+    let parse = |text| formula::parse(text).unwrap_or_else(|e| panic!("{text}: {e}"));
+    Bug {
+        library: Library::new(),
+        right: parse(right),
+        wrong: parse(wrong),
+        scene: Scene {
+            roughness,
+            f0,
+            light_deg,
+            others: Default::default(),
+        },
+    }
+}
+
+impl Bug {
+    fn fingerprint(&self) -> Fingerprint<'_> {
+        Fingerprint {
+            lesson: "test",
+            id: "test",
+            title: "A title".to_owned(),
+            caption: "A caption".to_owned(),
+            library: &self.library,
+            right: &self.right,
+            wrong: &self.wrong,
+            scene: self.scene.clone(),
+        }
+    }
+
+    fn picture(&self, options: &Options) -> renders::Picture {
+        render(&self.fingerprint(), options, &AtomicBool::new(false))
+            .unwrap_or_else(|e| panic!("{e}"))
+    }
+}
+
+fn cpu(size: u32) -> Options {
+    Options {
+        size,
+        backend: Backend::Cpu,
+        ..Options::default()
+    }
+}
+
+#[track_caller]
+fn close(value: f64, expected: f64, relative: f64, what: &str) {
+    assert!(
+        (value - expected).abs() <= relative * expected.abs(),
+        "{what}: {value} instead of {expected}"
+    );
+}
+
+/// Ratio at the point of the equator that is nearest to what `distance` calls zero.
+#[track_caller]
+fn ratio_where(
+    points: &[renders::ProfilePoint],
+    distance: impl Fn(&renders::ProfilePoint) -> f64,
+) -> f64 {
+    points
+        .iter()
+        .min_by(|a, b| distance(a).abs().total_cmp(&distance(b).abs()))
+        .map(|point| point.ratio)
+        .expect("a profile has points")
+}
+
+/// One row: the wrong formula, then the expected ratio at the highlight, at the disc's centre,
+/// near the rim (N·V = 0.05) and near the terminator (N·L = 0.05), light at 60°, roughness 0.4,
+/// F0 0.04.
+#[track_caller]
+fn check_landmarks(wrong: &str, [highlight, centre, rim, terminator]: [f64; 4]) {
+    let bug = bug(CORRECT, wrong, 0.4, 0.04, 60.0);
+    let points = profile(&bug.fingerprint(), 30_000);
+    let at = |distance: &dyn Fn(&renders::ProfilePoint) -> f64| ratio_where(&points, distance);
+    close(at(&|p| p.position - 0.5), highlight, 5e-3, "highlight");
+    close(at(&|p| p.position), centre, 5e-3, "centre");
+    let lit_side = |p: &renders::ProfilePoint| if p.position > 0.0 { 0.0 } else { 9.0 };
+    close(
+        at(&|p| (p.n_dot_v - 0.05).abs() + lit_side(p)),
+        rim,
+        5e-3,
+        "rim",
+    );
+    close(
+        at(&|p| p.n_dot_l - 0.05 + if p.position > 0.0 { 9.0 } else { 0.0 }),
+        terminator,
+        5e-3,
+        "terminator",
+    );
+}
+
+#[test]
+fn ratios_at_the_landmarks_are_the_closed_forms() {
+    check_landmarks(
+        "d_ggx(alpha = roughness) * v_ggx(alpha = roughness) * f_schlick() * n_dot_l",
+        [0.157, 3.04, 2.69, 2.69],
+    );
+    check_landmarks(DIVIDED_TWICE, [1.0 / 3.0, 0.5, 5.62, 5.62]);
+    check_landmarks(
+        "d_ggx() * g2_ggx() * f_schlick() * n_dot_l",
+        [3.0, 2.0, 0.178, 0.178],
+    );
+    check_landmarks(
+        "d_ggx() * v_ggx() * f_schlick(v_dot_h = n_dot_v) * n_dot_l",
+        [1.0, 0.999, 19.6, 0.999],
+    );
+    let pi = std::f64::consts::PI;
+    check_landmarks("pi * d_ggx() * v_ggx() * f_schlick() * n_dot_l", [pi; 4]);
+}
+
+/// The lit area in which dividing twice brightens is min(1, 1 / (4 cos²(light/2))).
+#[track_caller]
+fn check_lit_area(light_deg: f64) {
+    let picture = bug(CORRECT, DIVIDED_TWICE, 0.7, 0.95, light_deg).picture(&cpu(256));
+    let cosine = (light_deg / 2.0).to_radians().cos();
+    let expected = (1.0 / (4.0 * cosine * cosine)).min(1.0);
+    let found = picture.report.visibility.lit_above_one;
+    assert!(
+        (found - expected).abs() < 2e-3,
+        "{light_deg}°: {found} instead of {expected}"
+    );
+    if light_deg <= 120.0 {
+        let disc = picture.report.visibility.disc_above_one;
+        assert!(
+            (disc - 0.25).abs() < 2e-3,
+            "{light_deg}°: {disc} of the disc instead of 0.25"
+        );
+    }
+}
+
+#[test]
+fn a_quarter_of_the_disc_turns_brighter_when_divided_twice() {
+    [0.0, 30.0, 60.0, 90.0, 119.0, 150.0]
+        .into_iter()
+        .for_each(check_lit_area);
+}
+
+/// One row of the published table: roughness, light, rim over highlight of the buggy picture,
+/// terminator step over highlight.
+#[track_caller]
+fn check_visibility(roughness: f64, light_deg: f64, rim: f64, terminator: f64) {
+    let picture = bug(CORRECT, DIVIDED_TWICE, roughness, 0.9, light_deg).picture(&cpu(64));
+    let visibility = picture.report.visibility;
+    close(
+        visibility.rim_over_highlight.0,
+        rim,
+        0.03,
+        "rim over highlight",
+    );
+    close(
+        visibility.terminator_step,
+        terminator,
+        0.01,
+        "terminator step",
+    );
+}
+
+#[test]
+fn the_figures_say_where_the_double_division_shows() {
+    check_visibility(0.2, 60.0, 0.00118, 0.000197);
+    check_visibility(0.4, 60.0, 0.167, 0.0125);
+    check_visibility(0.7, 30.0, 9.73, 0.95);
+    check_visibility(0.7, 60.0, 5.58, 0.323);
+    check_visibility(0.7, 90.0, 3.89, 0.241);
+}
+
+#[test]
+fn raw_values_are_the_formula_at_the_pixels_centre() {
+    let bug = bug(CORRECT, DIVIDED_TWICE, 0.4, 0.9, 60.0);
+    let size = 65_u32;
+    let raw = raw(&bug.fingerprint(), &cpu(size)).expect("the formulas fit the scene");
+    let radius = RADIUS_SHARE * f64::from(size);
+    let (column, row) = (40_u32, 20_u32);
+    let unit = |pixel: u32| (f64::from(pixel) + 0.5 - f64::from(size) / 2.0) / radius;
+    let (x, y) = (unit(column), unit(row));
+    let z = (1.0 - x * x - y * y).sqrt();
+    let toward = |degrees: f64| x * degrees.to_radians().sin() + z * degrees.to_radians().cos();
+    let values = [
+        ("roughness", 0.4),
+        ("f0", 0.9),
+        ("n_dot_l", toward(60.0)),
+        ("n_dot_v", z),
+        ("n_dot_h", toward(30.0)),
+        ("v_dot_h", 30_f64.to_radians().cos()),
+    ]
+    .map(|(name, value)| (name.to_owned(), value))
+    .into();
+    let index = (row * size + column) as usize;
+    let expected = bug.library.eval(&bug.right, &values).expect("a value");
+    close(raw.right[index], expected, 1e-12, "right");
+    close(
+        raw.wrong[index],
+        expected / (4.0 * toward(60.0) * z),
+        1e-12,
+        "wrong",
+    );
+    assert_eq!(raw.right[0], 0.0, "nothing is outside the sphere");
+}
+
+#[track_caller]
+fn check_skipping(size: u32, light_deg: f64) {
+    let bug = bug(CORRECT, DIVIDED_TWICE, 0.4, 0.9, light_deg);
+    let skipping = raw(&bug.fingerprint(), &cpu(size)).expect("values");
+    let all = raw(
+        &bug.fingerprint(),
+        &Options {
+            skip: false,
+            ..cpu(size)
+        },
+    )
+    .expect("values");
+    let bits = |values: &[f64]| values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
+    assert_eq!(bits(&skipping.right), bits(&all.right));
+    assert_eq!(bits(&skipping.wrong), bits(&all.wrong));
+}
+
+#[test]
+fn what_is_skipped_changes_no_bit() {
+    check_skipping(64, 60.0);
+    check_skipping(65, 0.0);
+    check_skipping(48, 140.0);
+}
+
+#[test]
+fn the_picture_shows_a_sphere_and_the_same_one_each_time() {
+    let bug = bug(CORRECT, DIVIDED_TWICE, 0.7, 0.95, 60.0);
+    let picture = bug.picture(&cpu(96));
+    assert_eq!(
+        picture.rgba.len(),
+        (picture.width * picture.height * 4) as usize
+    );
+    let mut colours: Vec<&[u8]> = picture.rgba.chunks_exact(4).collect();
+    colours.sort_unstable();
+    colours.dedup();
+    assert!(colours.len() > 200, "only {} colours", colours.len());
+    assert_eq!(picture.rgba, bug.picture(&cpu(96)).rgba);
+    assert!(picture.png().starts_with(b"\x89PNG\r\n"));
+    let report = picture.report;
+    assert_eq!(report.backend, "cpu");
+    assert_eq!(report.pixels_shaded + report.pixels_skipped, 96 * 96);
+    assert!(report.pixels_skipped > report.pixels_shaded);
+    assert!(report.terms_evaluated.contains(&"d_ggx()".to_owned()));
+    assert!(
+        report
+            .terms_skipped
+            .iter()
+            .any(|term| term.starts_with("f_schlick()"))
+    );
+}
+
+#[test]
+fn the_compact_picture_is_the_panels_alone() {
+    let options = Options {
+        compact: true,
+        ..cpu(64)
+    };
+    let picture = bug(CORRECT, DIVIDED_TWICE, 0.7, 0.95, 60.0).picture(&options);
+    assert_eq!((picture.width, picture.height), (3 * 64 + 4, 64));
+}
+
+#[test]
+fn what_cannot_be_drawn_is_said_in_one_line() {
+    let cancelled = AtomicBool::new(true);
+    let good = bug(CORRECT, CORRECT, 0.4, 0.04, 60.0);
+    assert_eq!(
+        render(&good.fingerprint(), &cpu(64), &cancelled).unwrap_err(),
+        Error::Cancelled
+    );
+    let huge = render(&good.fingerprint(), &cpu(100_000), &AtomicBool::new(false)).unwrap_err();
+    assert_eq!(huge, Error::Size(100_000));
+    let unknown = bug(CORRECT, "d_ggx() * colour", 0.4, 0.04, 60.0);
+    let error = render(&unknown.fingerprint(), &cpu(64), &AtomicBool::new(false)).unwrap_err();
+    assert!(error.to_string().contains("wrong formula"), "{error}");
+    assert!(!error.to_string().contains('\n'), "{error}");
+}
+
+#[test]
+fn values_outside_a_domain_paint_black_and_never_stop_the_picture() {
+    let broken = bug(
+        "ln(n_dot_l - 1)",
+        "1 / (n_dot_h - n_dot_h)",
+        0.4,
+        0.04,
+        60.0,
+    );
+    broken.picture(&cpu(32));
+}

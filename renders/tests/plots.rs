@@ -1,0 +1,61 @@
+//! Plots keep what they are given: labels, curves, marks.
+
+use renders::{Error, PlotSpec, plot_png, plot_svg};
+
+fn spec() -> PlotSpec {
+    PlotSpec {
+        title: "G2 & V < 1".to_owned(),
+        x_label: "N·V".to_owned(),
+        y_label: "buggy / correct".to_owned(),
+        y_log: true,
+        series: vec![
+            (
+                "N·L = 0.5".to_owned(),
+                (1..50)
+                    .map(|i| f64::from(i) / 50.0)
+                    .map(|x| (x, 0.5 / x))
+                    .collect(),
+            ),
+            (
+                "broken".to_owned(),
+                vec![(0.1, f64::NAN), (0.2, -1.0), (0.3, f64::INFINITY)],
+            ),
+        ],
+        marks: vec![("equal here".to_owned(), 0.5, 1.0)],
+        ..PlotSpec::default()
+    }
+}
+
+#[test]
+fn the_svg_holds_every_label() {
+    let svg = plot_svg(&spec(), 800, 500).expect("a plot");
+    for label in [
+        "N·V",
+        "buggy / correct",
+        "N·L = 0.5",
+        "equal here",
+        "G2 &amp; V &lt; 1",
+        "width=\"800\"",
+    ] {
+        assert!(svg.contains(label), "{label} is missing in\n{svg}");
+    }
+    assert!(svg.contains("polyline"));
+    assert!(!svg.contains("NaN"));
+}
+
+#[test]
+fn the_png_is_a_picture_of_the_size_asked_for() {
+    let png = plot_png(&spec(), 320, 200).expect("a plot");
+    assert!(png.starts_with(b"\x89PNG\r\n"));
+    assert_eq!(png[16..24], [0, 0, 1, 64, 0, 0, 0, 200]);
+}
+
+#[test]
+fn a_plot_without_values_or_room_is_an_error() {
+    assert!(matches!(
+        plot_svg(&PlotSpec::default(), 800, 500),
+        Err(Error::Plot(_))
+    ));
+    assert!(matches!(plot_png(&spec(), 20, 20), Err(Error::Plot(_))));
+    assert!(matches!(plot_svg(&spec(), 0, 0), Err(Error::Plot(_))));
+}
