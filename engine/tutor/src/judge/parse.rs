@@ -338,6 +338,7 @@ fn resolve_ordinals(
         let after_article = at > 0 && matches!(tokens[at - 1].word.as_str(), "the" | "in" | "one");
         let names_one = matches!(
             follows,
+            "is" | "has" | "gives" | "shows" | "looks" | "are" | "will" | "would" | "should" |
             "one"
                 | "ball"
                 | "case"

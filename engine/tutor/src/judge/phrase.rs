@@ -134,7 +134,7 @@ impl Phrase {
     /// How well a reading says the contrary; only a single proposition has one.
     pub fn gainsaid(&self, lexicon: &Lexicon, reading: &Reading) -> Hit {
         match self.atoms.as_slice() {
-            [atom] => atom.best(lexicon, reading, true),
+            [atom] if self.said(lexicon, reading).score >= PERHAPS => atom.best(lexicon, reading, true),
             _ => Hit::default(),
         }
     }
@@ -177,6 +177,25 @@ fn keep(lexicon: &Lexicon, ids: &[Id], role: Option<Role>) -> Vec<Id> {
         .copied()
         .filter(|&id| role.is_none_or(|role| lexicon.concept(id).role == role))
         .collect()
+}
+
+/// How well a word's senses meet those of a phrase. The first sense of a word is the one
+/// meant; two words that meet only in their further senses do not mean the same.
+fn senses(wanted: &[Id], said: &[Id], as_said: impl Fn(Id) -> Option<Id>) -> f64 {
+    let mut best: f64 = 0.0;
+    for (i, &id) in said.iter().enumerate() {
+        let Some(id) = as_said(id) else { continue };
+        for (j, &sought) in wanted.iter().enumerate().filter(|&(_, &sought)| sought == id) {
+            debug_assert_eq!(sought, id);
+            best = best.max(match (i, j) {
+                (0, 0) => 1.0,
+                (_, 0) => 0.95,
+                (0, _) => 0.8,
+                _ => 0.4,
+            });
+        }
+    }
+    best
 }
 
 /// The words of a phrase that only themselves can say.
@@ -228,26 +247,20 @@ impl Atom {
 
     /// Does the statement say it (or, if asked, the contrary), and how clearly?
     fn polarity(&self, lexicon: &Lexicon, statement: &Statement, contrary: bool) -> f64 {
-        let says = statement.concepts.iter().any(|id| self.anchor.contains(id));
-        let opposite = statement.concepts.iter().any(|&id| {
-            lexicon
-                .concept(id)
-                .antonym
-                .is_some_and(|a| self.anchor.contains(&a))
-        });
+        let says = senses(&self.anchor, &statement.concepts, Some);
+        let opposite = senses(&self.anchor, &statement.concepts, |id| lexicon.concept(id).antonym);
         let binary = statement
             .concepts
             .iter()
             .any(|&id| lexicon.concept(id).binary);
         let sure = if statement.compared { 0.8 } else { 1.0 };
         let denied = statement.denied != self.denied;
-        match (says, opposite, denied, contrary) {
-            (true, _, false, false) => sure,
-            (true, _, true, true) => sure,
-            (false, true, true, false) if binary => sure,
-            (false, true, true, false) => 0.6,
-            (false, true, false, true) => sure,
-            _ => 0.0,
+        match (denied, contrary) {
+            (false, false) | (true, true) => says * sure,
+            (true, false) if says > 0.0 => 0.0,
+            (true, false) => opposite * if binary { sure } else { 0.6 },
+            (false, true) if says > 0.0 => 0.0,
+            (false, true) => opposite * sure,
         }
     }
 
@@ -256,40 +269,45 @@ impl Atom {
         let mut score: f64 = 1.0;
         for class in 0..CLASSES {
             let wanted = &self.about[class];
+            let is = |ids: &[Id], name: &str| ids.iter().any(|&id| lexicon.concept(id).name == name);
+            let about = statement.about[class].as_ref();
             if wanted.is_empty() {
+                // What an artist might have done is not what the picture shows.
+                if class == CAUSE && about.is_some_and(|a| a.held >= Held::Inherited && is(&a.concepts, "artist")) {
+                    score *= 0.45;
+                }
+                if class == QUANTITY && about.is_some_and(|a| a.held == Held::Local) && self.is_value(lexicon) {
+                    let given = about.is_some_and(|a| a.concepts.iter().all(|&id| is_given(&lexicon.concept(id).name)));
+                    score *= if given { 0.0 } else { 1.0 };
+                }
                 continue;
             }
-            let generic = class == PLACE
-                && wanted
-                    .iter()
-                    .any(|&id| matches!(lexicon.concept(id).name.as_str(), "whole" | "highlight"));
-            score *= match &statement.about[class] {
+            let generic = class == PLACE && (is(wanted, "whole") || is(wanted, "highlight"));
+            score *= match about {
                 None if generic => 0.9,
                 None => match class {
                     PLACE => 0.55,
                     SURFACE | MATERIAL | CAUSE => 0.8,
                     _ => 0.9,
                 },
-                Some(about) if about.concepts.iter().any(|id| wanted.contains(id)) => {
-                    match about.held {
-                        Held::Local => 1.0,
-                        Held::Inherited => 0.95,
-                        Held::Remembered => 0.9,
-                    }
-                }
-                Some(about)
-                    if class == PLACE
-                        && about.concepts.iter().any(|&id| {
-                            matches!(lexicon.concept(id).name.as_str(), "whole" | "highlight")
-                        }) =>
-                {
-                    0.5
-                }
+                Some(about) if about.concepts.iter().any(|id| wanted.contains(id)) => match about.held {
+                    Held::Local => 1.0,
+                    Held::Inherited => 0.95,
+                    Held::Remembered => 0.9,
+                },
+                Some(about) if class == PLACE && is(wanted, "centre") && is(&about.concepts, "highlight") => 0.6,
+                Some(about) if class == PLACE && is(wanted, "centre") && is(&about.concepts, "whole") => 0.5,
+                Some(about) if class == PLACE && is(wanted, "whole") && is(&about.concepts, "highlight") => 0.5,
                 Some(about) if class == QUANTITY && about.held < Held::Local => 0.9,
                 Some(_) => 0.0,
             };
         }
         score
+    }
+
+    /// Whether the phrase says which value something has.
+    fn is_value(&self, lexicon: &Lexicon) -> bool {
+        self.anchor.iter().any(|&id| matches!(lexicon.concept(id).name.as_str(), "zero" | "one" | "quarter"))
     }
 
     /// Are the other things of the phrase named beside it?
@@ -351,6 +369,11 @@ fn share(words: &[String], forms: &[Form]) -> f64 {
         .filter(|word| forms.iter().any(|form| form.stem == **word))
         .count();
     present as f64 / words.len() as f64
+}
+
+/// Quantities that are put in, not what comes out.
+fn is_given(name: &str) -> bool {
+    matches!(name, "alpha" | "top" | "bottom" | "ndoth" | "ndotl" | "ndotv" | "vdoth" | "product")
 }
 
 /// The tokens of the sentence around a token, at most 200 to either side.
