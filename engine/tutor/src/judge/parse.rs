@@ -45,6 +45,8 @@ pub struct Statement {
     pub void: bool,
     /// Whether it follows from a comparison ("brighter than the centre").
     pub compared: bool,
+    /// Whether it says what ought to be ("while it should really fall off").
+    pub ideal: bool,
     /// What it is about.
     pub about: [Option<About>; CLASSES],
     /// Its clause.
@@ -79,6 +81,8 @@ pub struct Reading {
     pub denied: Vec<bool>,
     /// For each token, whether a concept was heard in it.
     pub heard: Vec<bool>,
+    /// Places that are the whole object, or wherever the highlight is.
+    pub generic: Vec<Id>,
     /// For each clause, the statements of it (a range, as they come in order).
     pub of_clause: Vec<(usize, usize)>,
 }
@@ -115,6 +119,10 @@ pub fn read(lexicon: &Lexicon, tokens: Vec<Token>, setting: &Setting, mute: &[bo
         sentence,
         denied,
         heard,
+        generic: ["whole", "highlight"]
+            .into_iter()
+            .filter_map(|name| lexicon.id(name))
+            .collect(),
         ..Reading::default()
     };
     reading.attach(lexicon, &matches);
@@ -338,8 +346,15 @@ fn resolve_ordinals(
         let after_article = at > 0 && matches!(tokens[at - 1].word.as_str(), "the" | "in" | "one");
         let names_one = matches!(
             follows,
-            "is" | "has" | "gives" | "shows" | "looks" | "are" | "will" | "would" | "should" |
-            "one"
+            "is" | "has"
+                | "gives"
+                | "shows"
+                | "looks"
+                | "are"
+                | "will"
+                | "would"
+                | "should"
+                | "one"
                 | "ball"
                 | "case"
                 | "photo"
@@ -366,12 +381,7 @@ fn resolve_ordinals(
             {
                 order.get(1).copied()
             }
-            "other"
-                if after_article
-                    && (names_one
-                        || !is_word(tokens.get(at + 1))
-                        || grammar::is_copula(follows)) =>
-            {
+            "other" if names_one || (after_article && grammar::is_copula(follows)) => {
                 let topic = last.or_else(|| order.first().copied());
                 setting.order[class]
                     .iter()
@@ -429,6 +439,7 @@ impl Reading {
         }) {
             is_state[found.start..found.end].fill(true);
         }
+        let ideal = self.ideals();
         let mut cursor = [0usize; CLASSES];
         for found in matches {
             let mut about: [Option<About>; CLASSES] = Default::default();
@@ -450,6 +461,7 @@ impl Reading {
                 denied: self.denied[found.start],
                 void: false,
                 compared: false,
+                ideal: ideal[clause],
                 about,
                 clause,
                 sentence,
@@ -515,7 +527,8 @@ impl Reading {
         }
         let after = list.get(next).filter(|m| m.start >= found.end);
         let before = self.before(list, next, clause, found.start);
-        let local = |m: &Mention| Some(self.with_partner(list, m, Held::Local));
+        let local =
+            |m: &Mention| Some(self.with_partner(list, self.specific(list, m), Held::Local));
         let after_here = after.filter(|m| self.clause[m.start] == clause);
         if let Some(prev) = before.filter(|m| self.clause[m.start] == clause) {
             let gap = prev.end..found.start;
@@ -584,7 +597,23 @@ impl Reading {
         } else {
             Held::Remembered
         };
-        Some(self.with_partner(list, prev, held))
+        Some(self.with_partner(list, self.specific(list, prev), held))
+    }
+
+    /// "At the edge the reflection ...": the place named first is the one meant.
+    fn specific<'a>(&self, list: &'a [Mention], m: &'a Mention) -> &'a Mention {
+        if m.class != PLACE || !self.generic.contains(&m.concept) {
+            return m;
+        }
+        let index = list.partition_point(|other| other.start < m.start);
+        let Some(earlier) = index.checked_sub(1).and_then(|i| list.get(i)) else {
+            return m;
+        };
+        let leads = (earlier.start.saturating_sub(3)..earlier.start)
+            .any(|i| is_preposition(&self.tokens[i].word));
+        let same = self.clause[earlier.start] == self.clause[m.start]
+            && !self.generic.contains(&earlier.concept);
+        if same && leads { earlier } else { m }
     }
 
     /// The last mention before, leaving out what stands behind "than".
@@ -655,6 +684,30 @@ impl Reading {
         self.dismiss();
     }
 
+    /// For each clause, whether it says what ought to be rather than what is.
+    fn ideals(&self) -> Vec<bool> {
+        let mut ideal = vec![false; self.clause.last().map_or(0, |last| last + 1)];
+        let mut contrasts = false;
+        for (at, token) in self.tokens.iter().enumerate() {
+            if at == 0 || self.clause[at] != self.clause[at - 1] {
+                contrasts = matches!(
+                    token.word.as_str(),
+                    "while" | "whereas" | "although" | "though" | "where" | "when" | "but"
+                );
+            }
+            let ought = matches!(token.word.as_str(), "should" | "ought" | "supposed");
+            let really = self.tokens.get(at + 1).is_some_and(|next| {
+                matches!(
+                    next.word.as_str(),
+                    "really" | "actually" | "normally" | "rather" | "in"
+                )
+            });
+            let reference = matches!(token.word.as_str(), "normally" | "usually" | "ordinarily");
+            ideal[self.clause[at]] |= (ought && (contrasts || really)) || reference;
+        }
+        ideal
+    }
+
     fn sentences(&self) -> usize {
         self.sentence.last().map_or(0, |last| last + 1)
     }
@@ -669,7 +722,14 @@ impl Reading {
                 first = false;
             }
             if token.ends_sentence() {
-                asked[self.sentence[at]] = token.kind == Kind::Question && asks;
+                // "Double division? Not at all."
+                let refused = self.tokens.get(at + 1).is_some_and(|next| {
+                    matches!(
+                        next.word.as_str(),
+                        "no" | "not" | "nope" | "never" | "nah" | "hardly"
+                    )
+                });
+                asked[self.sentence[at]] = token.kind == Kind::Question && (asks || refused);
                 first = true;
                 asks = false;
             }
@@ -770,7 +830,15 @@ pub fn conflicts(lexicon: &Lexicon, a: &Statement, b: &Statement) -> bool {
     let same_topic = (0..CLASSES)
         .filter(|&class| class != QUANTITY)
         .all(|class| match (&a.about[class], &b.about[class]) {
-            (Some(x), Some(y)) => x.concepts.iter().any(|id| y.concepts.contains(id)),
+            (Some(x), Some(y)) => {
+                let generic = |about: &About| {
+                    about.concepts.iter().all(|&id| {
+                        matches!(lexicon.concept(id).name.as_str(), "whole" | "highlight")
+                    })
+                };
+                x.concepts.iter().any(|id| y.concepts.contains(id))
+                    || (class == PLACE && (generic(x) || generic(y)))
+            }
             _ => true,
         });
     let values = ["singular", "zero", "one", "oneoverpi"];

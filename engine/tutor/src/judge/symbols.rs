@@ -477,6 +477,15 @@ fn value(tokens: &[Token], at: usize) -> Found {
         let (result, end) = sum(tokens, at + 1, 0)?;
         return found(end - at, name(result));
     }
+    // `f(1)`: an argument.
+    let call = token.is("(")
+        && !token.spaced
+        && at > 0
+        && tokens[at - 1].kind == Kind::Word
+        && !tokens[at - 1].is("pi");
+    if call {
+        return None;
+    }
     let numeric = number(tokens, at).is_some()
         || ((token.is("(") || token.is("pi")) && starts_number(tokens, at));
     if !numeric {
@@ -494,16 +503,16 @@ fn value(tokens: &[Token], at: usize) -> Found {
         return found(
             end + 1 - at,
             if result == 90.0 {
-                "#90 degrees"
+                "#90deg"
             } else if result == 0.0 {
-                "#0 degrees"
+                "#0deg"
             } else {
                 "#num"
             },
         );
     }
     if (result - std::f64::consts::FRAC_PI_2).abs() < 1e-3 {
-        return found(end - at, "#90 degrees");
+        return found(end - at, "#90deg");
     }
     let times = is(tokens, end, &["x"])
         || (is(tokens, end, &["*"])
@@ -518,7 +527,17 @@ fn value(tokens: &[Token], at: usize) -> Found {
         ));
     }
     let part = |i: usize| is(tokens, i, &["+", "-", "/", "*", "^"]);
-    if part(end) || (operand_before && part(at.wrapping_sub(1))) || (at > 0 && part(at - 1)) {
+    // `D(1)`: an argument, not a value.
+    let argument = at > 1
+        && tokens[at - 1].is("(")
+        && !tokens[at - 1].spaced
+        && tokens[at - 2].kind == Kind::Word
+        && is(tokens, end, &[")"]);
+    if argument
+        || part(end)
+        || (operand_before && part(at.wrapping_sub(1)))
+        || (at > 0 && part(at - 1))
+    {
         return found(end - at, "#num");
     }
     found(end - at, name(result))
