@@ -5,7 +5,7 @@
 //! spoken of. All passes run over the tokens a bounded number of times.
 
 use super::grammar;
-use super::lexicon::{CLASSES, Form, Id, Lexicon, MATERIAL, PLACE, QUANTITY, Role, SURFACE};
+use super::lexicon::{CAUSE, CLASSES, Form, Id, Lexicon, MATERIAL, PLACE, QUANTITY, Role, SURFACE};
 use super::spelling::is_preposition;
 use super::text::{Kind, Token};
 
@@ -107,6 +107,7 @@ pub fn read(lexicon: &Lexicon, tokens: Vec<Token>, setting: &Setting, mute: &[bo
     let mut matches = find(lexicon, &tokens, &forms);
     let (clause, sentence) = clauses(lexicon, &tokens, &matches);
     let denied = denials(lexicon, &tokens, &matches, &clause, &sentence);
+    suppose(lexicon, &tokens, &mut matches, &sentence, setting);
     resolve_ordinals(lexicon, &tokens, &mut matches, setting);
     let mut heard = vec![false; tokens.len()];
     for found in &matches {
@@ -302,6 +303,41 @@ fn less(lexicon: &Lexicon, tokens: &[Token], matches: &[Match], denied: &mut [bo
             }
         }
     }
+}
+
+/// "If the light were weak, ...": what an artist might have done, where the question names him.
+fn suppose(
+    lexicon: &Lexicon,
+    tokens: &[Token],
+    matches: &mut Vec<Match>,
+    sentence: &[usize],
+    setting: &Setting,
+) {
+    let Some(artist) = lexicon
+        .id("artist")
+        .filter(|id| setting.order[CAUSE].contains(id))
+    else {
+        return;
+    };
+    let ids = [lexicon.id("light"), lexicon.id("basecolour")];
+    let mut found = Vec::new();
+    for at in (0..tokens.len()).filter(|&at| tokens[at].is("if") || tokens[at].is("were")) {
+        let first = matches.partition_point(|m| m.start < at);
+        let names = matches[first..].iter().take(4).any(|m| {
+            sentence[m.start] == sentence[at]
+                && m.start < at + 8
+                && m.concepts.iter().any(|&id| ids.contains(&Some(id)))
+        });
+        if names {
+            found.push(Match {
+                start: at,
+                end: at + 1,
+                concepts: vec![artist],
+            });
+        }
+    }
+    matches.extend(found);
+    matches.sort_by_key(|m| m.start);
 }
 
 /// "the first", "the other": which of two.
@@ -592,6 +628,22 @@ impl Reading {
             return None;
         }
         let prev = before?;
+        // What an artist might have done ends where the contrast begins.
+        let contrast = |t: &Token| {
+            matches!(
+                t.word.as_str(),
+                "but" | "whereas" | "while" | "however" | ";" | "--"
+            )
+        };
+        if prev.class == CAUSE
+            && self.tokens[prev.end..found.start]
+                .iter()
+                .rev()
+                .take(40)
+                .any(contrast)
+        {
+            return None;
+        }
         let held = if self.sentence[prev.start] == self.sentence[found.start] {
             Held::Inherited
         } else {
@@ -680,8 +732,80 @@ impl Reading {
                 .is_some_and(|range| range.iter().any(|&m| m));
             statement.void = muted || asked[statement.sentence] || listed[statement.sentence];
         }
+        // "a quarter as bright as it should be" does not say bright.
+        for statement in &mut self.statements {
+            let (start, end) = statement.tokens;
+            let measured = start > 0
+                && self.tokens[start - 1].is("as")
+                && self.tokens.get(end).is_some_and(|t| t.is("as"));
+            statement.void |= measured;
+        }
         self.take_back(lexicon);
         self.dismiss();
+        self.complete(lexicon);
+    }
+
+    /// "The edges get too dark, and the centre too": says the same of the centre.
+    fn complete(&mut self, lexicon: &Lexicon) {
+        let is_state = |s: &Statement| {
+            s.concepts
+                .iter()
+                .any(|&id| lexicon.concept(id).role == Role::State)
+        };
+        let mut added: Vec<Statement> = Vec::new();
+        for (index, entity) in self.statements.iter().enumerate() {
+            let Some(class) =
+                entity
+                    .concepts
+                    .iter()
+                    .find_map(|&id| match lexicon.concept(id).role {
+                        Role::Entity(class) if class == PLACE || class == SURFACE => Some(class),
+                        _ => None,
+                    })
+            else {
+                continue;
+            };
+            let (start, end) = entity.tokens;
+            let after = self
+                .tokens
+                .get(end)
+                .map(|t| t.word.as_str())
+                .unwrap_or_default();
+            let ends = self
+                .tokens
+                .get(end + 1)
+                .is_none_or(|t| t.kind != Kind::Word && t.kind != Kind::Value);
+            let trails = matches!(after, "too" | "also" | "likewise") && ends
+                || after == "as" && self.tokens.get(end + 1).is_some_and(|t| t.is("well"));
+            let leads = (start.saturating_sub(4)..start).any(|i| {
+                matches!(self.tokens[i].word.as_str(), "as" | "so")
+                    && self.tokens.get(i + 1).is_some_and(|t| {
+                        matches!(
+                            t.word.as_str(),
+                            "will" | "is" | "does" | "do" | "are" | "would"
+                        )
+                    })
+            });
+            if !(trails || leads) {
+                continue;
+            }
+            let about = entity.about[class].clone();
+            let earlier = self.statements[..index]
+                .iter()
+                .rev()
+                .take_while(|s| s.sentence + 1 >= entity.sentence)
+                .take(8);
+            if let Some(said) = earlier
+                .filter(|s| is_state(s))
+                .find(|s| s.tokens.1 <= start)
+            {
+                let mut copy = said.clone();
+                copy.about[class] = about;
+                added.push(copy);
+            }
+        }
+        self.statements.extend(added);
+        self.statements.sort_by_key(|s| (s.tokens.0, s.tokens.1));
     }
 
     /// For each clause, whether it says what ought to be rather than what is.

@@ -14,7 +14,7 @@ pub const STATED: f64 = 0.75;
 pub const PERHAPS: f64 = 0.5;
 
 /// From here on the contrary is stated.
-const GAINSAID: f64 = 0.85;
+const GAINSAID: f64 = 0.93;
 
 /// How to listen.
 #[derive(Clone, Copy, Debug, Default)]

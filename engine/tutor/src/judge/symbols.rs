@@ -73,7 +73,7 @@ fn number_words(mut tokens: Vec<Token>) -> Vec<Token> {
             .map(|i| tokens[i].word.clone())
             .unwrap_or_default();
         let number = match tokens[at].word.as_str() {
-            "zero" => "0",
+            "zero" | "nought" | "naught" | "nil" | "null" => "0",
             "unity" => "1",
             "one" if is(&tokens, at + 1, &["over", "divided"]) => "1",
             "one"
@@ -277,9 +277,10 @@ fn shape(tokens: &[Token], at: usize) -> Found {
             };
         }
     }
-    if is(tokens, next, &["1", "g2", "g"]) && is(tokens, next + 1, &["/", "over"]) {
+    let divided = is(tokens, next + 1, &["divided"]) && is(tokens, next + 2, &["by"]);
+    if is(tokens, next, &["1", "g2", "g"]) && (divided || is(tokens, next + 1, &["/", "over"])) {
         let one = is(tokens, next, &["1"]);
-        next += 2;
+        next += 2 + usize::from(divided);
         let open = is(tokens, next, &["("]);
         next += usize::from(open);
         if is(tokens, next, &["#4nlnv", "#nlnv"]) {
@@ -316,14 +317,15 @@ fn shape(tokens: &[Token], at: usize) -> Found {
         }
         return None;
     }
-    if is(tokens, at, &["n", "ior", "eta", "1", "n1", "n2"])
-        && is(tokens, at + 1, &["-"])
-        && is(tokens, at + 2, &["n", "ior", "eta", "1", "n1", "n2"])
-    {
-        // The sum follows within a few tokens: ") / ( n + 1".
-        let sum = (at + 3..at + 8).find(|&i| {
-            is(tokens, i, &["+"]) && is(tokens, i + 1, &["n", "ior", "eta", "1", "n1", "n2"])
-        })?;
+    let index =
+        |i: usize| is(tokens, i, &["n", "ior", "eta", "n1", "n2"]) || number(tokens, i).is_some();
+    if index(at) && is(tokens, at + 1, &["-"]) && index(at + 2) {
+        // The sum follows within a few tokens, behind a division: ") / ( n + 1".
+        let sum =
+            (at + 3..at + 9).find(|&i| is(tokens, i, &["+"]) && index(i - 1) && index(i + 1))?;
+        if !(at + 3..sum).any(|i| is(tokens, i, &["/", "over"])) {
+            return None;
+        }
         let mut end = sum + 2;
         while is(tokens, end, &[")"]) && end < sum + 5 {
             end += 1;
@@ -540,7 +542,9 @@ fn value(tokens: &[Token], at: usize) -> Found {
     {
         return found(end - at, "#num");
     }
-    found(end - at, name(result))
+    // Four per cent that were computed were computed from the index.
+    let computed = end - at > 3 && name(result) == "#0.04";
+    found(end - at, if computed { "#f0formula" } else { name(result) })
 }
 
 /// Does a bracket or a pi open arithmetic on numbers alone?
