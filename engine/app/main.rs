@@ -1,2 +1,26 @@
-//! The program `lobe`.
-fn main() {}
+//! The program `lobe`: the only place with IO (terminal, files, clock, threads).
+//!
+//! What is taught, marked and judged is decided below, in `tutor`; here keys become
+//! messages, effects are carried out, and results are printed. Nothing here computes a
+//! number that a learner sees.
+
+mod cli;
+mod commands;
+mod exit;
+mod fingerprints;
+mod lessons;
+mod output;
+mod plain;
+mod sitting;
+mod store;
+mod text;
+mod tui;
+
+use std::process::ExitCode;
+
+use clap::Parser as _;
+
+fn main() -> ExitCode {
+    let cli = cli::Cli::parse();
+    exit::code_of(commands::run(cli))
+}

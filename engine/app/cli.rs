@@ -1,0 +1,210 @@
+//! What the command line accepts. Types only: `commands` does the work.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+/// A terminal tutor for microfacet shading: D, G and F, worked, explained and drawn.
+///
+/// Without a command it opens the list of lessons.
+#[derive(Debug, Parser)]
+#[command(name = "lobe", version, max_term_width = 90)]
+pub struct Cli {
+    #[command(flatten)]
+    pub folders: Folders,
+    #[command(subcommand)]
+    pub command: Option<Command>,
+}
+
+/// Where lessons come from and where answers go.
+#[derive(Clone, Debug, Default, Args)]
+pub struct Folders {
+    /// Folder of lesson files (else LOBE_LESSONS, ./lessons, or the lessons built in)
+    #[arg(long, global = true, value_name = "DIR")]
+    pub lessons: Option<PathBuf>,
+    /// Folder of your answers (else LOBE_PROGRESS, or your data folder)
+    #[arg(long, global = true, value_name = "DIR")]
+    pub progress: Option<PathBuf>,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Take one lesson
+    Learn(Learn),
+    /// List the lessons, how far you are, and what is due
+    List(Json),
+    /// Show your record: attempts, verdicts, slips
+    Progress(Json),
+    /// Print a lesson as taught, as Markdown
+    Transcript(Transcript),
+    /// Compute an expression with the core's functions
+    Eval(Eval),
+    /// List the exercises, or draw one
+    Exercise(Exercise),
+    /// Mark an answer to an exercise
+    Mark(Mark),
+    /// Judge an explanation read from standard input
+    Judge(Judge),
+    /// Check everything a lesson file can get wrong
+    Check(Check),
+    /// Draw fingerprints and plots to files
+    Render(Render),
+    /// Say what this machine offers: adapter, terminal graphics, colours, folders
+    Doctor(Json),
+}
+
+#[derive(Clone, Debug, Default, Args)]
+pub struct Learn {
+    /// Id or number of the lesson (`lobe list` names them)
+    pub lesson: String,
+    /// Linear text on standard input and output, for screen readers and pipes
+    #[arg(long)]
+    pub plain: bool,
+    /// Start afresh even where an unfinished session could be resumed
+    #[arg(long)]
+    pub new: bool,
+    /// Seed of the exercise numbers of a new session (else taken from the clock)
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+}
+
+#[derive(Clone, Copy, Debug, Default, Args)]
+pub struct Json {
+    /// Print JSON, one object a line
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct Transcript {
+    /// Id or number of the lesson
+    pub lesson: String,
+    /// The lesson itself, without your answers
+    #[arg(long)]
+    pub fresh: bool,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Precision {
+    #[default]
+    F64,
+    F32,
+}
+
+#[derive(Debug, Args)]
+pub struct Eval {
+    /// For example 'd_ggx(n_dot_h = 0.95, roughness = 0.4)'
+    #[arg(
+        value_name = "EXPR",
+        required_unless_present = "batch",
+        allow_negative_numbers = true
+    )]
+    pub expressions: Vec<String>,
+    /// Compute in this precision
+    #[arg(long, value_enum, default_value_t)]
+    pub precision: Precision,
+    /// Print one JSON object per expression
+    #[arg(long)]
+    pub json: bool,
+    /// Read one expression a line from FILE (`-`: standard input); prints JSON
+    #[arg(long, value_name = "FILE", conflicts_with = "expressions")]
+    pub batch: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub struct Exercise {
+    /// Id of the exercise, for example smith-g2/v
+    #[arg(required_unless_present = "list")]
+    pub id: Option<String>,
+    /// List every exercise of every lesson
+    #[arg(long, conflicts_with = "id")]
+    pub list: bool,
+    /// Seed of the draw
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct Mark {
+    /// Id of the exercise
+    pub id: String,
+    /// Seed of the draw
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
+    /// What the learner typed
+    #[arg(long, value_name = "TEXT", allow_hyphen_values = true)]
+    pub answer: String,
+    /// The step that was answered (else the result)
+    #[arg(long, value_name = "NAME")]
+    pub step: Option<String>,
+    /// What was answered to an earlier step; may be given several times
+    #[arg(long, value_name = "NAME=TEXT", allow_hyphen_values = true)]
+    pub earlier: Vec<String>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct Judge {
+    /// Id of the question, for example smith-g2/explain-3
+    #[arg(required_unless_present = "batch")]
+    pub item: Option<String>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Read JSONL `{"id","item","text"}` from FILE (`-`: standard input); prints JSON
+    #[arg(long, value_name = "FILE", conflicts_with = "item")]
+    pub batch: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    #[default]
+    Human,
+    Json,
+    Github,
+    Junit,
+}
+
+#[derive(Debug, Args)]
+pub struct Check {
+    /// Lesson files or folders (else the lessons that `lobe` would teach)
+    pub paths: Vec<PathBuf>,
+    /// How to print what was found
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Backend {
+    /// A hardware adapter where there is one, else the CPU
+    #[default]
+    Auto,
+    /// Any adapter, software ones included; without one exit 2
+    Gpu,
+    Cpu,
+}
+
+#[derive(Debug, Args)]
+pub struct Render {
+    /// Ids or numbers of lessons (else all)
+    pub lessons: Vec<String>,
+    /// Folder to write to (else renders/gallery where it exists, else ./lobe-pictures)
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Width and height of one panel in pixels
+    #[arg(long, value_name = "N", default_value_t = 384, value_parser = clap::value_parser!(u32).range(16..=8192))]
+    pub size: u32,
+    #[arg(long, value_enum, default_value_t)]
+    pub backend: Backend,
+    /// Draw again what is already there
+    #[arg(long)]
+    pub force: bool,
+    /// Print one JSON object a picture
+    #[arg(long)]
+    pub json: bool,
+}

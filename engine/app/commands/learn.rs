@@ -1,0 +1,40 @@
+//! `lobe` and `lobe learn`.
+
+use std::env;
+use std::io::{self, IsTerminal as _};
+
+use crate::cli::{Folders, Json, Learn};
+use crate::exit::{Done, Failure};
+use crate::sitting::{Sitting, Wish};
+use crate::{plain, tui};
+
+/// The list of lessons on the screen; without a screen, the list as text.
+pub fn tutor(folders: &Folders) -> Result<Done, Failure> {
+    if !has_screen() {
+        return super::list::run(folders, Json::default());
+    }
+    // What is broken is said on the screen, not above it.
+    let shelf = crate::lessons::Shelf::open(folders.lessons.as_deref())?;
+    tui::run(&shelf, &super::store(folders)?, tui::Open::List)
+}
+
+/// One lesson.
+pub fn lesson(folders: &Folders, args: &Learn) -> Result<Done, Failure> {
+    let shelf = super::shelf(folders)?;
+    let store = super::store(folders)?;
+    let lesson = shelf.find(&args.lesson)?;
+    let wish = Wish {
+        new: args.new,
+        seed: args.seed,
+    };
+    if args.plain || !has_screen() {
+        plain::run(Sitting::open(lesson, &store, wish)?, &store)
+    } else {
+        tui::run(&shelf, &store, tui::Open::Lesson(lesson, wish))
+    }
+}
+
+fn has_screen() -> bool {
+    let dumb = env::var_os("TERM").is_some_and(|term| term == "dumb");
+    !dumb && io::stdin().is_terminal() && io::stdout().is_terminal()
+}

@@ -1,0 +1,221 @@
+//! Where lessons come from. No registry: every `*.toml` of the folder is a lesson.
+
+use std::env;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use tutor::{Finding, Lesson, Severity};
+
+use crate::exit::Failure;
+
+/// The lessons that were built into the program: file name and text.
+const BUILT_IN: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/lessons.rs"));
+
+/// One lesson file as read.
+pub struct File {
+    /// As it was named by the user, or `lessons/NN-name.toml`.
+    pub name: String,
+    pub text: String,
+    /// `NN` of `NN-name.toml`, else its place in the folder.
+    pub number: u32,
+    /// Absent where the file is broken; `findings` say why.
+    pub lesson: Option<Arc<Lesson>>,
+    pub findings: Vec<Finding>,
+}
+
+/// All lessons of one folder, in the order of their numbers.
+pub struct Shelf {
+    pub files: Vec<File>,
+}
+
+impl Shelf {
+    /// Looks in `folder`, `LOBE_LESSONS`, `./lessons`, and last in the program itself.
+    pub fn open(folder: Option<&Path>) -> Result<Self, Failure> {
+        if let Some(folder) = folder {
+            return Self::of_folder(folder);
+        }
+        if let Some(folder) = env::var_os("LOBE_LESSONS").filter(|value| !value.is_empty()) {
+            return Self::of_folder(Path::new(&folder));
+        }
+        if let Ok(shelf) = Self::of_folder(Path::new("lessons")) {
+            return Ok(shelf);
+        }
+        let files = BUILT_IN
+            .iter()
+            .map(|(name, text)| File::read(format!("lessons/{name}"), (*text).to_owned()));
+        Ok(Self {
+            files: numbered(files.collect()),
+        })
+    }
+
+    /// The files and folders that were named.
+    pub fn of_paths(paths: &[PathBuf]) -> Result<Self, Failure> {
+        let mut files = Vec::new();
+        for path in paths {
+            if path.is_dir() {
+                files.extend(Self::of_folder(path)?.files);
+            } else {
+                files.push(read_file(path)?);
+            }
+        }
+        Ok(Self {
+            files: numbered(files),
+        })
+    }
+
+    fn of_folder(folder: &Path) -> Result<Self, Failure> {
+        let entries = fs::read_dir(folder).map_err(|error| Failure::unreadable(folder, &error))?;
+        let mut paths: Vec<PathBuf> = entries
+            .filter_map(|entry| Some(entry.ok()?.path()))
+            .filter(|path| {
+                path.extension()
+                    .is_some_and(|extension| extension == "toml")
+            })
+            .collect();
+        paths.sort();
+        if paths.is_empty() {
+            return Err(Failure::unusable(format!(
+                "no lesson in {}: put a .toml file there, or leave --lessons out to take the lessons built in",
+                folder.display()
+            )));
+        }
+        let files: Result<Vec<File>, Failure> = paths.iter().map(|path| read_file(path)).collect();
+        Ok(Self {
+            files: numbered(files?),
+        })
+    }
+
+    /// Every lesson that can be taught.
+    pub fn lessons(&self) -> impl Iterator<Item = &Arc<Lesson>> {
+        self.files.iter().filter_map(|file| file.lesson.as_ref())
+    }
+
+    /// The files that cannot be taught.
+    pub fn broken(&self) -> impl Iterator<Item = &File> {
+        self.files.iter().filter(|file| file.lesson.is_none())
+    }
+
+    /// Says on standard error which files cannot be taught; the others still open.
+    pub fn warn_of_broken(&self) {
+        for file in self.broken() {
+            eprintln!("lobe: {}", file.why_broken());
+        }
+    }
+
+    /// The file of a lesson with its lesson, by id or number.
+    pub fn find(&self, wanted: &str) -> Result<&Arc<Lesson>, Failure> {
+        let by_number = |file: &&File| wanted.parse() == Ok(file.number);
+        let by_id = |file: &&File| match &file.lesson {
+            Some(lesson) => lesson.id.text == wanted,
+            None => file.stem_without_number() == wanted,
+        };
+        let Some(file) = self
+            .files
+            .iter()
+            .find(by_id)
+            .or_else(|| self.files.iter().find(by_number))
+        else {
+            let ids = self.lessons().map(|lesson| lesson.id.text.as_str());
+            return Err(unknown("lesson", wanted, ids, "`lobe list` shows them"));
+        };
+        file.lesson
+            .as_ref()
+            .ok_or_else(|| Failure::unusable(file.why_broken()))
+    }
+}
+
+impl File {
+    fn read(name: String, text: String) -> Self {
+        let (lesson, findings) = tutor::load(&name, &text);
+        Self {
+            name,
+            text,
+            number: 0,
+            lesson: lesson.map(Arc::new),
+            findings,
+        }
+    }
+
+    /// The first error of the file as one line: file, line, column, what and what to do.
+    pub fn why_broken(&self) -> String {
+        let first = self
+            .findings
+            .iter()
+            .find(|finding| finding.severity == Severity::Error)
+            .or(self.findings.first());
+        match first {
+            Some(finding) => one_line(finding),
+            None => format!(
+                "{}: not a lesson; `lobe check {}` may say more",
+                self.name, self.name
+            ),
+        }
+    }
+
+    fn stem_without_number(&self) -> &str {
+        let name = self.name.rsplit(['/', '\\']).next().unwrap_or(&self.name);
+        let stem = name.strip_suffix(".toml").unwrap_or(name);
+        match stem.split_once('-') {
+            Some((number, rest)) if number.parse::<u32>().is_ok() => rest,
+            _ => stem,
+        }
+    }
+
+    fn own_number(&self) -> Option<u32> {
+        let name = self.name.rsplit(['/', '\\']).next()?;
+        name.split_once('-')?.0.parse().ok()
+    }
+}
+
+/// `file:line:column: message; help`.
+pub fn one_line(finding: &Finding) -> String {
+    let mut line = format!(
+        "{}:{}:{}: {}",
+        finding.file, finding.line, finding.column, finding.message
+    );
+    if let Some(expected) = &finding.expected {
+        line.push_str(&format!(" (expected {expected})"));
+    }
+    if let Some(help) = &finding.help {
+        line.push_str(&format!("; {help}"));
+    }
+    line
+}
+
+fn read_file(path: &Path) -> Result<File, Failure> {
+    let bytes = fs::read(path).map_err(|error| Failure::unreadable(path, &error))?;
+    let text = String::from_utf8(bytes).map_err(|_| {
+        Failure::unusable(format!(
+            "{} is not UTF-8 text: save it as UTF-8",
+            path.display()
+        ))
+    })?;
+    Ok(File::read(path.display().to_string(), text))
+}
+
+fn numbered(mut files: Vec<File>) -> Vec<File> {
+    for (place, file) in files.iter_mut().enumerate() {
+        file.number = file.own_number().unwrap_or(place as u32 + 1);
+    }
+    files
+}
+
+/// "there is no lesson `smth-g2`: did you mean `smith-g2`?"
+pub fn unknown<'a>(
+    what: &str,
+    wanted: &str,
+    known: impl Iterator<Item = &'a str>,
+    else_say: &str,
+) -> Failure {
+    let nearest = known
+        .map(|name| (strsim::damerau_levenshtein(name, wanted), name))
+        .filter(|(distance, name)| *distance <= 2 + name.len() / 4)
+        .min();
+    match nearest {
+        Some((_, name)) => Failure::unusable(format!(
+            "there is no {what} `{wanted}`: did you mean `{name}`?"
+        )),
+        None => Failure::unusable(format!("there is no {what} `{wanted}`: {else_say}")),
+    }
+}

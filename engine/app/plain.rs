@@ -1,0 +1,458 @@
+//! A lesson as linear text on standard input and output: for screen readers, pipes and tests.
+//!
+//! One line is one input; an empty line goes on; a line that starts with `:` is a command; an
+//! explanation ends with a line of one `.`. What is printed holds no time and no path, and
+//! nothing is printed twice.
+
+use std::io::{self, BufRead as _, IsTerminal as _};
+use std::sync::mpsc::{self, Receiver};
+use std::thread;
+
+use tutor::Lesson;
+use tutor::prose::TableView;
+use tutor::session::Msg;
+use tutor::view::{Input, Saving, View};
+
+use crate::exit::{Done, Failure};
+use crate::fingerprints::profile_table;
+use crate::output;
+use crate::sitting::{Request, Sitting};
+use crate::store::Store;
+use crate::text;
+
+/// Lines are wrapped here.
+const WIDTH: usize = 80;
+
+/// What comes in.
+enum Incoming {
+    Line(String),
+    End,
+    /// A signal asks to end.
+    Signal(i32),
+}
+
+/// Runs the lesson until its end, or the input's.
+pub fn run(sitting: Sitting, store: &Store) -> Result<Done, Failure> {
+    let mut plain = Plain {
+        echo: !io::stdin().is_terminal(),
+        sitting,
+        seen: None,
+        said_unsaved: false,
+        editor: None,
+    };
+    let result = plain.converse(&incoming());
+    plain.part(store, result)
+}
+
+struct Plain {
+    sitting: Sitting,
+    /// Whether input is printed, because no terminal shows it.
+    echo: bool,
+    /// What was printed last: its key, how many blocks, the input asked for.
+    seen: Option<View>,
+    said_unsaved: bool,
+    /// Lines of the explanation being typed.
+    editor: Option<Vec<String>>,
+}
+
+/// How the conversation ended.
+enum End {
+    Left,
+    InputEnded,
+    Signal(i32),
+}
+
+impl Plain {
+    fn converse(&mut self, incoming: &Receiver<Incoming>) -> Result<End, Failure> {
+        self.greet()?;
+        loop {
+            self.print_news()?;
+            // The channel closes only with the program.
+            match incoming.recv().unwrap_or(Incoming::End) {
+                Incoming::End => return Ok(End::InputEnded),
+                Incoming::Signal(signal) => return Ok(End::Signal(signal)),
+                Incoming::Line(line) => {
+                    if self.echo {
+                        output::line(&format!("> {line}"))?;
+                    }
+                    if self.take(&line)? {
+                        return Ok(End::Left);
+                    }
+                }
+            }
+            self.sitting.settle();
+        }
+    }
+
+    fn greet(&mut self) -> Result<(), Failure> {
+        let title = self.sitting.view().lesson_title.clone();
+        print(&text::wrap_plain(&title, WIDTH, "# ", "  "))?;
+        if self.sitting.resumed {
+            output::line("\nResuming where you left.")?;
+        }
+        for notice in self.sitting.notices.clone() {
+            print(&text::wrap_plain(&notice.says, WIDTH, "! ", "  "))?;
+            if let Some(place) = notice.place {
+                eprintln!("lobe: {place}");
+            }
+        }
+        output::line(
+            "\nOne line is one input. An empty line goes on. :help says what else there is.",
+        )
+    }
+
+    /// Takes one line of input. True where the lesson is left.
+    fn take(&mut self, line: &str) -> Result<bool, Failure> {
+        let view = self.sitting.view();
+        let command = line.trim();
+        let msg = match command {
+            ":quit" | ":q" => Msg::Quit,
+            ":back" | ":b" => Msg::Back,
+            ":skip" | ":s" => Msg::Skip,
+            ":hint" | ":h" => Msg::Hint,
+            ":help" | ":?" => {
+                help(view)?;
+                return Ok(false);
+            }
+            _ if matches!(view.input, Input::Text { .. }) => return self.take_text(line),
+            "" => Msg::Next,
+            _ if command.starts_with(':') => {
+                output::line(&format!(
+                    "! {command} is no command. :help says which there are."
+                ))?;
+                return Ok(false);
+            }
+            _ => match &view.input {
+                Input::Checklist { points } => {
+                    match checklist(command, points.iter().position(|p| p.said.is_none())) {
+                        Some(msg) => msg,
+                        None => {
+                            output::line("! Answer y or n, or a point's number and y or n: 2 n.")?;
+                            return Ok(false);
+                        }
+                    }
+                }
+                Input::None => {
+                    output::line("! Nothing is asked here. An empty line goes on.")?;
+                    return Ok(false);
+                }
+                _ => Msg::Answer(command.to_owned()),
+            },
+        };
+        let msg = match (&view.input, msg) {
+            (Input::Checklist { points }, Msg::Next)
+                if points.iter().all(|point| point.said.is_some()) =>
+            {
+                Msg::ChecklistDone
+            }
+            (_, msg) => msg,
+        };
+        self.keep_draft();
+        Ok(self.tell(msg))
+    }
+
+    /// A line of an explanation; one `.` hands it in.
+    fn take_text(&mut self, line: &str) -> Result<bool, Failure> {
+        let lines = self.editor.get_or_insert_default();
+        let empty = lines.iter().all(|line| line.trim().is_empty());
+        if line.trim() == "." {
+            let answer = lines.join("\n");
+            self.editor = None;
+            return Ok(self.tell(Msg::Answer(answer)));
+        }
+        if line.trim().is_empty() && empty {
+            if self.sitting.view().can.next {
+                self.editor = None;
+                return Ok(self.tell(Msg::Next));
+            }
+            output::line("! Say it in your own words, and end with a line of one `.`")?;
+            return Ok(false);
+        }
+        lines.push(line.to_owned());
+        let draft = lines.join("\n");
+        Ok(self.tell(Msg::Draft(draft)))
+    }
+
+    /// Leaving an explanation half written: what there is was kept line by line.
+    fn keep_draft(&mut self) {
+        self.editor = None;
+    }
+
+    fn tell(&mut self, msg: Msg) -> bool {
+        self.sitting.tell(msg).contains(&Request::Leave)
+    }
+
+    /// Prints what is new: a new screen, or what was added to this one; then what is asked.
+    fn print_news(&mut self) -> Result<(), Failure> {
+        let view = self.sitting.view().clone();
+        let before = self.seen.replace(view.clone());
+        let lesson = self.sitting.lesson().clone();
+        let same_screen = before.as_ref().is_some_and(|before| before.key == view.key);
+        let old_blocks = if same_screen {
+            before.as_ref().map_or(0, |before| before.blocks.len())
+        } else {
+            0
+        };
+        if !same_screen {
+            output::line("")?;
+            output::line(&headline(&view))?;
+        }
+        let describe = Profiles { lesson: &lesson };
+        for block in view.blocks.iter().skip(old_blocks) {
+            output::line("")?;
+            print(&text::plain(block, WIDTH, &describe))?;
+        }
+        if let Some(note) = &view.note {
+            output::line("")?;
+            print(&text::wrap_plain(note, WIDTH, "! ", "  "))?;
+        }
+        self.print_unsaved(&view)?;
+        let asks_again = before.is_none_or(|before| {
+            !same_screen
+                || before.blocks != view.blocks
+                || before.input != view.input
+                || before.note != view.note
+        });
+        if asks_again && self.editor.is_none() {
+            self.ask(&view, same_screen)?;
+        }
+        Ok(())
+    }
+
+    fn print_unsaved(&mut self, view: &View) -> Result<(), Failure> {
+        match &view.saving {
+            Saving::Failed(why) if !self.said_unsaved => {
+                self.said_unsaved = true;
+                let says = format!("Not saved: {why}. It is kept in memory and tried again.");
+                print(&text::wrap_plain(&says, WIDTH, "! ", "  "))
+            }
+            Saving::Saved if self.said_unsaved => {
+                self.said_unsaved = false;
+                output::line("✓ Saved now, everything that was kept.")
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn ask(&mut self, view: &View, same_screen: bool) -> Result<(), Failure> {
+        let mut lines = Vec::new();
+        match &view.input {
+            Input::None => {
+                let label = if view.next_label.is_empty() {
+                    "on"
+                } else {
+                    &view.next_label
+                };
+                lines.push(format!("[Empty line: {label}]"));
+            }
+            Input::Number { label, note } => {
+                let note = if note.is_empty() {
+                    String::new()
+                } else {
+                    format!(" ({note})")
+                };
+                lines.extend(text::wrap_plain(
+                    &format!("{label}{note}?"),
+                    WIDTH,
+                    "",
+                    "  ",
+                ));
+            }
+            Input::Text { label, draft } => {
+                lines.extend(text::wrap_plain(label, WIDTH, "", "  "));
+                lines.push(
+                    "[Write as many lines as you like; a line of one `.` hands it in]".into(),
+                );
+                if !draft.is_empty() && !same_screen {
+                    lines.push("Your draft so far; go on after it:".into());
+                    lines.extend(draft.lines().map(|line| format!("| {line}")));
+                    self.editor = Some(draft.split('\n').map(str::to_owned).collect());
+                }
+            }
+            Input::Choice { options } => {
+                for (index, option) in options.iter().enumerate() {
+                    let letter = char::from(b'a' + (index as u8).min(25));
+                    lines.extend(text::wrap_plain(
+                        option,
+                        WIDTH,
+                        &format!("{letter}) "),
+                        "   ",
+                    ));
+                }
+                lines.push("[Type a letter]".into());
+            }
+            Input::Order { items } => {
+                for (index, item) in items.iter().enumerate() {
+                    lines.extend(text::wrap_plain(
+                        item,
+                        WIDTH,
+                        &format!("{}. ", index + 1),
+                        "   ",
+                    ));
+                }
+                lines.push("[Type the numbers in the right order, such as 2 1 3]".into());
+            }
+            Input::Checklist { points } => match points
+                .iter()
+                .position(|point| point.said.is_none())
+            {
+                Some(open) => {
+                    lines.extend(text::wrap_plain(
+                        &points[open].text,
+                        WIDTH,
+                        &format!("{}. ", open + 1),
+                        "   ",
+                    ));
+                    lines.push("[Does your answer say this? y or n]".into());
+                }
+                None => {
+                    for (index, point) in points.iter().enumerate() {
+                        let before = format!("{}. {} ", index + 1, text::tick(point.said));
+                        lines.extend(text::wrap_plain(&point.text, WIDTH, &before, "       "));
+                    }
+                    lines.push("[Empty line: done; or a number and y or n to change one]".into());
+                }
+            },
+        }
+        output::line("")?;
+        print(&lines)
+    }
+
+    fn part(self, store: &Store, result: Result<End, Failure>) -> Result<Done, Failure> {
+        let Self { mut sitting, .. } = self;
+        // Even where nobody reads any more, the answers are kept.
+        let _ = sitting.tell(Msg::Quit);
+        let saved = sitting.close();
+        let end = result?;
+        match saved {
+            Ok(()) => output::line("\nSaved. The same command goes on from here.")?,
+            Err(why) => {
+                return Err(Failure::unusable(format!(
+                    "not saved in {}: {why}; make room there or name another folder with --progress",
+                    store.folder.display()
+                )));
+            }
+        }
+        match end {
+            End::Left | End::InputEnded => Ok(Done::Fine),
+            End::Signal(signal) => std::process::exit(128 + signal),
+        }
+    }
+}
+
+/// Where we are, in one line.
+fn headline(view: &View) -> String {
+    let (at, of) = view.place;
+    let place = if of > 1 {
+        format!(" {at} of {of}")
+    } else {
+        String::new()
+    };
+    let stage = view.stage.title();
+    if view.heading.is_empty() || view.heading == stage {
+        format!("## {stage}{place}")
+    } else {
+        format!("## {stage}{place}: {}", view.heading)
+    }
+}
+
+fn help(view: &View) -> Result<(), Failure> {
+    let mut lines = vec!["An empty line goes on.".to_owned()];
+    let mut say = |works: bool, line: &str| {
+        if works {
+            lines.push(line.to_owned());
+        }
+    };
+    say(
+        view.can.hint.is_some(),
+        ":hint  one hint more; the third is the answer",
+    );
+    say(view.can.back, ":back  the screen before; nothing is lost");
+    say(view.can.skip, ":skip  leave this out");
+    say(
+        true,
+        ":quit  save and leave; the same command comes back here",
+    );
+    say(
+        matches!(view.input, Input::Number { .. }),
+        "Numbers: 0.56, 5.6e-1, 0,56 or arithmetic such as 0.4^4, 1/pi.",
+    );
+    print(&lines)
+}
+
+/// "y", "n", "2 y".
+fn checklist(line: &str, open: Option<usize>) -> Option<Msg> {
+    let mut words = line.split_whitespace();
+    let first = words.next()?;
+    let (point, word) = match first.parse::<usize>() {
+        Ok(number) => (number.checked_sub(1)?, words.next()?),
+        Err(_) => (open?, first),
+    };
+    let said = match word {
+        "y" | "yes" | "j" => true,
+        "n" | "no" => false,
+        _ => return None,
+    };
+    Some(Msg::Mark { point, said })
+}
+
+fn print(lines: &[String]) -> Result<(), Failure> {
+    lines.iter().try_for_each(|line| output::line(line))
+}
+
+struct Profiles<'a> {
+    lesson: &'a Lesson,
+}
+
+impl text::Describe for Profiles<'_> {
+    fn picture(&self, lesson: &str, id: &str) -> Option<TableView> {
+        (lesson == self.lesson.id.text).then(|| profile_table(self.lesson, id))?
+    }
+}
+
+/// Lines and signals, in the order in which they come.
+fn incoming() -> Receiver<Incoming> {
+    let (send, incoming) = mpsc::channel();
+    let signals = send.clone();
+    thread::spawn(move || {
+        let mut bytes = Vec::new();
+        let mut stdin = io::stdin().lock();
+        loop {
+            bytes.clear();
+            match stdin.read_until(b'\n', &mut bytes) {
+                Ok(1..) => {
+                    let text = String::from_utf8_lossy(&bytes);
+                    let line = text
+                        .trim_end_matches(['\n', '\r'])
+                        .trim_start_matches('\u{feff}');
+                    if send.send(Incoming::Line(line.to_owned())).is_err() {
+                        return;
+                    }
+                }
+                // What cannot be read has ended.
+                Ok(0) | Err(_) => {
+                    let _ = send.send(Incoming::End);
+                    return;
+                }
+            }
+        }
+    });
+    watch_signals(signals);
+    incoming
+}
+
+#[cfg(unix)]
+fn watch_signals(send: mpsc::Sender<Incoming>) {
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    let Ok(mut signals) = signal_hook::iterator::Signals::new([SIGHUP, SIGINT, SIGTERM]) else {
+        return;
+    };
+    thread::spawn(move || {
+        for signal in signals.forever() {
+            let _ = send.send(Incoming::Signal(signal));
+        }
+    });
+}
+
+#[cfg(not(unix))]
+fn watch_signals(_send: mpsc::Sender<Incoming>) {}

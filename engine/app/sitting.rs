@@ -1,0 +1,241 @@
+//! A session with its log: messages go in, effects are carried out, events are saved.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+
+use tutor::Lesson;
+use tutor::record::Record;
+use tutor::session::{Effect, Event, Msg, Session, Start, progress};
+use tutor::view::View;
+
+use crate::exit::Failure;
+use crate::store::{Log, Logs, Store, Writer};
+
+/// What is left for the screen to carry out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Request {
+    /// A picture of the lesson is on the screen.
+    Picture {
+        lesson: String,
+        id: String,
+    },
+    Leave,
+}
+
+/// What a learner asked for.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Wish {
+    /// Start afresh.
+    pub new: bool,
+    /// The seed of a new session.
+    pub seed: Option<u64>,
+}
+
+/// One learner in one lesson, with the log.
+pub struct Sitting {
+    session: Session,
+    writer: Writer,
+    last_event: Instant,
+    /// Whether this goes on with an earlier session.
+    pub resumed: bool,
+    /// What the learner should know before the lesson starts.
+    pub notices: Vec<Notice>,
+}
+
+/// Something to say before the lesson starts.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Notice {
+    /// One sentence, without a path.
+    pub says: String,
+    /// Where, for the error output.
+    pub place: Option<String>,
+}
+
+impl Sitting {
+    /// Opens a lesson: resumes the last session where it was left unfinished, else starts one.
+    pub fn open(lesson: &Arc<Lesson>, store: &Store, wish: Wish) -> Result<Self, Failure> {
+        let mut notices = Vec::new();
+        // What cannot be read is said again, and better, when trying to write.
+        let logs = store.logs().unwrap_or_default();
+        if let Err(why) = store.try_out() {
+            notices.push(Notice {
+                says: format!(
+                    "Your answers cannot be saved: {why}. They are kept in memory, and saving is tried again after every answer."
+                ),
+                place: Some(store.folder.display().to_string()),
+            });
+        }
+        for unreadable in &logs.unreadable {
+            let name = unreadable
+                .path
+                .file_name()
+                .unwrap_or_default()
+                .to_string_lossy();
+            let moved = match store.set_aside(unreadable) {
+                Ok(aside) => format!(
+                    "set aside as {}",
+                    aside.file_name().unwrap_or_default().to_string_lossy()
+                ),
+                Err(_) => "left as it is".to_owned(),
+            };
+            notices.push(Notice {
+                says: "A log could not be read; it is kept, and nothing is written over it.".into(),
+                place: Some(format!("{name}: {}; {moved}", unreadable.why)),
+            });
+        }
+        let unfinished = progress::unfinished(&lesson.id, &logs.records())
+            .map(|at| &logs.readable[at])
+            .filter(|log| !wish.new && wish.seed.is_none_or(|seed| seed == log.record.header.seed));
+        if let Some(log) = unfinished {
+            match store.resume(log) {
+                Some(writer) => return Ok(Self::resume(lesson, log, writer, notices)),
+                None => notices.push(Notice {
+                    says: "This lesson is open in another window: a new session starts here."
+                        .into(),
+                    place: None,
+                }),
+            }
+        }
+        Ok(Self::begin(lesson, store, &logs, wish, notices))
+    }
+
+    fn resume(lesson: &Arc<Lesson>, log: &Log, writer: Writer, mut notices: Vec<Notice>) -> Self {
+        let record = &log.record;
+        let (session, changed) = Session::resume(
+            Arc::clone(lesson),
+            record.start(),
+            &record.header.hash,
+            &record.events(),
+        );
+        notices.extend(changed.map(|says| Notice { says, place: None }));
+        Self {
+            session,
+            writer,
+            last_event: Instant::now(),
+            resumed: true,
+            notices,
+        }
+    }
+
+    fn begin(
+        lesson: &Arc<Lesson>,
+        store: &Store,
+        logs: &Logs,
+        wish: Wish,
+        notices: Vec<Notice>,
+    ) -> Self {
+        let start = Start {
+            seed: wish.seed.unwrap_or_else(seed_from_clock),
+            slips: progress::noted_slips(&lesson.id, &logs.records()),
+        };
+        let record = Record::new(
+            env!("CARGO_PKG_VERSION"),
+            &lesson.id,
+            &lesson.hash,
+            &now(),
+            &start,
+        );
+        let writer = store.begin(record);
+        let session = Session::new(Arc::clone(lesson), start);
+        Self {
+            session,
+            writer,
+            last_event: Instant::now(),
+            resumed: false,
+            notices,
+        }
+    }
+
+    /// What is on the screen.
+    pub fn view(&self) -> &View {
+        self.session.screen()
+    }
+
+    /// The lesson taught.
+    pub fn lesson(&self) -> &Arc<Lesson> {
+        self.session.lesson()
+    }
+
+    /// Tells the session something, and has what follows saved.
+    pub fn tell(&mut self, msg: Msg) -> Vec<Request> {
+        let effects = self.session.update(msg);
+        effects
+            .into_iter()
+            .filter_map(|effect| self.carry_out(effect))
+            .collect()
+    }
+
+    fn carry_out(&mut self, effect: Effect) -> Option<Request> {
+        match effect {
+            Effect::Save(event) => {
+                self.save(event);
+                None
+            }
+            Effect::Draw { lesson, picture } => Some(Request::Picture {
+                lesson,
+                id: picture,
+            }),
+            Effect::Quit => Some(Request::Leave),
+        }
+    }
+
+    fn save(&mut self, event: Event) {
+        let took = self.last_event.elapsed();
+        self.last_event = Instant::now();
+        let took_ms = u64::try_from(took.as_millis()).unwrap_or(u64::MAX);
+        self.writer.append(now(), took_ms, event);
+    }
+
+    /// Passes on what became of the log. True where the screen changed.
+    pub fn collect(&mut self) -> bool {
+        match self.writer.news() {
+            Some(news) => {
+                self.pass_on(news);
+                true
+            }
+            None => false,
+        }
+    }
+
+    /// Waits until everything is saved, or known not to be.
+    pub fn settle(&mut self) {
+        const PATIENCE: Duration = Duration::from_secs(10);
+        let until = Instant::now() + PATIENCE;
+        while self.writer.is_busy() && Instant::now() < until {
+            if let Some(news) = self.writer.wait_for_news(Duration::from_millis(200)) {
+                self.pass_on(news);
+            }
+        }
+    }
+
+    fn pass_on(&mut self, news: Result<(), String>) {
+        let msg = news.map_or_else(Msg::SaveFailed, |()| Msg::Saved);
+        // A message about the log asks for nothing but, at most, more of the log.
+        let _ = self.tell(msg);
+    }
+
+    /// Whether news of the log will come soon.
+    pub fn is_saving(&self) -> bool {
+        self.writer.is_busy()
+    }
+
+    /// Saves what is left and ends.
+    pub fn close(self) -> Result<(), String> {
+        self.writer.close()
+    }
+}
+
+/// The time, as logs keep it.
+pub fn now() -> String {
+    jiff::Timestamp::now()
+        .round(jiff::Unit::Millisecond)
+        .map_or_else(|_| String::new(), |time| time.to_string())
+}
+
+fn seed_from_clock() -> u64 {
+    let since = SystemTime::now()
+        .duration_since(UNIX_EPOCH)
+        .unwrap_or_default();
+    // Small enough to be read aloud: sessions of one learner need no more.
+    since.as_nanos() as u64 % 1_000_000
+}

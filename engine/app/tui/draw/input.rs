@@ -1,0 +1,203 @@
+//! The field at the foot of a screen.
+
+use ratatui::Frame;
+use ratatui::layout::{Position, Rect};
+use ratatui::text::{Line, Span};
+use ratatui::widgets::{Block, BorderType};
+use tutor::view::Input;
+
+use super::style::Palette;
+use crate::text;
+use crate::tui::field::Field;
+use crate::tui::keys::Focus;
+use crate::tui::lesson::LessonScreen;
+
+/// Fields are as wide as prose is.
+const WIDEST: u16 = 96;
+
+/// Rows that the field wants of `room`.
+pub fn height(screen: &LessonScreen, width: u16, room: u16) -> u16 {
+    let inner = width.min(WIDEST).saturating_sub(6) as usize;
+    let rows = match (&screen.view().input, &screen.field) {
+        (Input::None, _) | (_, Field::None) => return 0,
+        (Input::Number { .. }, _) => 1,
+        // Large enough to see what one writes, small enough to see what one answers.
+        (Input::Text { .. }, _) => (room / 3).clamp(4, 14),
+        (Input::Choice { options }, _) => wrapped_rows(options.iter().map(String::as_str), inner),
+        (Input::Order { items }, _) => wrapped_rows(items.iter().map(String::as_str), inner),
+        (Input::Checklist { points }, _) => {
+            wrapped_rows(points.iter().map(|point| point.text.as_str()), inner)
+        }
+    };
+    (rows + 2).min(room.saturating_sub(2))
+}
+
+fn wrapped_rows<'a>(items: impl Iterator<Item = &'a str>, width: usize) -> u16 {
+    items
+        .map(|item| text::wrap_plain(item, width, "", "").len() as u16)
+        .sum()
+}
+
+pub fn draw(frame: &mut Frame, area: Rect, screen: &LessonScreen, palette: Palette) {
+    if area.height < 3 {
+        return;
+    }
+    let area = Rect {
+        width: area.width.min(WIDEST),
+        ..area
+    };
+    let focused = matches!(screen.focus, Focus::Line | Focus::Editor | Focus::Options);
+    let view = screen.view();
+    let (label, note) = match &view.input {
+        Input::None => return,
+        Input::Number { label, note } => (label.clone(), note.clone()),
+        Input::Text { label, .. } => (label.clone(), String::new()),
+        Input::Choice { .. } => ("Which one?".to_owned(), String::new()),
+        Input::Order { .. } => (
+            "Put in order".to_owned(),
+            "Space grabs, arrows move".to_owned(),
+        ),
+        Input::Checklist { .. } => (
+            "Does your answer say this?".to_owned(),
+            "y or n for each, then Enter".to_owned(),
+        ),
+    };
+    let mut frame_block = Block::bordered()
+        .border_type(if focused {
+            BorderType::Thick
+        } else {
+            BorderType::Rounded
+        })
+        .border_style(palette.frame(focused))
+        .title(Line::styled(format!(" {label} "), palette.title()));
+    if !note.is_empty() {
+        frame_block = frame_block.title_bottom(Line::styled(format!(" {note} "), palette.quiet()));
+    }
+    if let Field::Editor(_) = screen.field {
+        let style = if screen.focus == Focus::Button {
+            palette.selected()
+        } else {
+            palette.key()
+        };
+        frame_block =
+            frame_block.title_bottom(Line::styled(" [ Hand in: Ctrl-S ] ", style).right_aligned());
+    }
+    let inner = frame_block.inner(area);
+    frame.render_widget(frame_block, area);
+    match &screen.field {
+        Field::None => {}
+        Field::Line(field) | Field::Editor(field) => {
+            let inner = Rect {
+                x: inner.x + 1,
+                width: inner.width.saturating_sub(2),
+                ..inner
+            };
+            frame.render_widget(field.as_ref(), inner);
+            if focused {
+                // The terminal's own cursor too, for those who follow it by ear or magnifier.
+                let cursor = field.screen_cursor();
+                let (top, left) = field.scroll_offset();
+                let x = inner.x + (cursor.col as u16).saturating_sub(left);
+                let y = inner.y + (cursor.row as u16).saturating_sub(top);
+                if inner.contains(Position { x, y }) {
+                    frame.set_cursor_position((x, y));
+                }
+            }
+        }
+        Field::Choice { at } => {
+            if let Input::Choice { options } = &view.input {
+                let rows = options.iter().enumerate().map(|(index, option)| {
+                    let letter = char::from(b'a' + (index as u8).min(25));
+                    (format!("{letter}) "), option.clone(), index == *at)
+                });
+                list(frame, inner, rows.collect(), focused, palette);
+            }
+        }
+        Field::Order(order) => {
+            if let Input::Order { items } = &view.input {
+                let rows = order.places.iter().enumerate().map(|(index, place)| {
+                    let here = index == order.at;
+                    let sign = if here && order.grabbed {
+                        "↕  "
+                    } else {
+                        "·  "
+                    };
+                    (
+                        sign.to_owned(),
+                        items.get(*place).cloned().unwrap_or_default(),
+                        here,
+                    )
+                });
+                list(frame, inner, rows.collect(), focused, palette);
+            }
+        }
+        Field::Checklist { at } => {
+            if let Input::Checklist { points } = &view.input {
+                let rows = points.iter().enumerate().map(|(index, point)| {
+                    (
+                        format!("{} ", text::tick(point.said)),
+                        point.text.clone(),
+                        index == *at,
+                    )
+                });
+                list(frame, inner, rows.collect(), focused, palette);
+            }
+        }
+    }
+}
+
+/// Rows of which one is chosen; the window follows it.
+fn list(
+    frame: &mut Frame,
+    area: Rect,
+    rows: Vec<(String, String, bool)>,
+    focused: bool,
+    palette: Palette,
+) {
+    let mut lines: Vec<Line> = Vec::new();
+    let mut chosen = 0..0;
+    for (sign, words, here) in rows {
+        let start = lines.len();
+        let pointer = if here { "▸ " } else { "  " };
+        let rest = " ".repeat(sign.chars().count() + 2);
+        let style = if here && focused {
+            palette.here()
+        } else {
+            ratatui::style::Style::new()
+        };
+        for (index, line) in text::wrap_plain(
+            &words,
+            (area.width as usize).saturating_sub(rest.len() + 1),
+            "",
+            "",
+        )
+        .into_iter()
+        .enumerate()
+        {
+            let before = if index == 0 {
+                format!("{pointer}{sign}")
+            } else {
+                rest.clone()
+            };
+            lines.push(Line::from(vec![
+                Span::styled(before, palette.key()),
+                Span::styled(line, style),
+            ]));
+        }
+        if here {
+            chosen = start..lines.len();
+        }
+    }
+    let height = area.height as usize;
+    let top = chosen.end.saturating_sub(height).min(chosen.start);
+    for (row, line) in lines.into_iter().skip(top).take(height).enumerate() {
+        frame.render_widget(
+            line,
+            Rect {
+                y: area.y + row as u16,
+                height: 1,
+                ..area
+            },
+        );
+    }
+}

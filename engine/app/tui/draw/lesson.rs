@@ -1,0 +1,368 @@
+//! The screen of a lesson: where we are, the page, the field, the keys.
+
+use ratatui::Frame;
+use ratatui::layout::Rect;
+use ratatui::text::{Line, Span};
+use tutor::prose::Tone;
+use tutor::view::{Input, Progress, Saving, View};
+use unicode_width::UnicodeWidthStr as _;
+
+use super::chrome::{Key, at_right, footer, key, rule};
+use super::input;
+use super::style::Palette;
+use crate::text;
+use crate::tui::field::Field;
+use crate::tui::keys::Focus;
+use crate::tui::lesson::LessonScreen;
+use crate::tui::pictures::Pictures;
+
+/// From here on the stages stand in a column of their own.
+const SIDEBAR_FROM: u16 = 126;
+const SIDEBAR: u16 = 24;
+const HEADER: u16 = 3;
+
+/// Where everything goes.
+pub struct Areas {
+    header: Rect,
+    sidebar: Option<Rect>,
+    pub page: Rect,
+    note: Rect,
+    input: Rect,
+    footer: Rect,
+}
+
+impl Areas {
+    pub fn new(screen: &LessonScreen, whole: Rect) -> Self {
+        let header = Rect {
+            height: HEADER.min(whole.height),
+            ..whole
+        };
+        let footer = Rect {
+            y: whole.bottom().saturating_sub(1),
+            height: 1,
+            ..whole
+        };
+        let body = Rect {
+            y: header.bottom(),
+            height: footer.y.saturating_sub(header.bottom()),
+            ..whole
+        };
+        let (sidebar, body) = if whole.width >= SIDEBAR_FROM {
+            let sidebar = Rect {
+                width: SIDEBAR,
+                ..body
+            };
+            (
+                Some(sidebar),
+                Rect {
+                    x: body.x + SIDEBAR + 2,
+                    width: body.width - SIDEBAR - 2,
+                    ..body
+                },
+            )
+        } else {
+            (None, body)
+        };
+        let body = Rect {
+            x: body.x + 1,
+            width: body.width.saturating_sub(2),
+            ..body
+        };
+        let input_height = input::height(screen, body.width, body.height);
+        let note_height = (notes(screen, body.width as usize).len() as u16).min(body.height / 2);
+        let page_height = body.height.saturating_sub(input_height + note_height);
+        let page = Rect {
+            height: page_height,
+            ..body
+        };
+        let note = Rect {
+            y: page.bottom(),
+            height: note_height,
+            ..body
+        };
+        let input = Rect {
+            y: note.bottom(),
+            height: input_height,
+            ..body
+        };
+        Self {
+            header,
+            sidebar,
+            page,
+            note,
+            input,
+            footer,
+        }
+    }
+}
+
+pub fn draw(frame: &mut Frame, screen: &LessonScreen, pictures: &Pictures, palette: Palette) {
+    let areas = Areas::new(screen, frame.area());
+    let view = screen.view();
+    header(frame, areas.header, view, areas.sidebar.is_none(), palette);
+    if let Some(area) = areas.sidebar {
+        sidebar(frame, area, view, palette);
+    }
+    screen.page.draw(
+        screen.scroll,
+        pictures,
+        palette,
+        areas.page,
+        frame.buffer_mut(),
+    );
+    for (row, (tone, line)) in notes(screen, areas.note.width as usize)
+        .into_iter()
+        .enumerate()
+    {
+        if row < areas.note.height as usize {
+            let at = Rect {
+                y: areas.note.y + row as u16,
+                height: 1,
+                ..areas.note
+            };
+            frame.render_widget(Line::styled(line, palette.tone(tone)), at);
+        }
+    }
+    input::draw(frame, areas.input, screen, palette);
+    let right = match (screen.has_more_below(), screen.scroll > 0) {
+        (true, _) => "▼ more below",
+        (false, true) => "▲ more above",
+        (false, false) => "",
+    };
+    footer(frame, areas.footer, &keys(screen), right, palette);
+}
+
+/// Title and whether all is saved; the stages or their names; a rule.
+fn header(frame: &mut Frame, area: Rect, view: &View, with_stages: bool, palette: Palette) {
+    let row = |row: u16| Rect {
+        y: area.y + row,
+        height: 1,
+        ..area
+    };
+    let saved = saving(&view.saving, palette);
+    let title = cut(
+        &view.lesson_title,
+        (area.width as usize).saturating_sub(saved.width() + 3),
+    );
+    frame.render_widget(Line::styled(format!(" {title}"), palette.title()), row(0));
+    at_right(frame, row(0), saved);
+
+    let mut line = Line::raw(" ");
+    if with_stages {
+        for (_, progress) in &view.stages {
+            let (sign, style) = sign(*progress, palette);
+            line.push_span(Span::styled(sign, style));
+        }
+        line.push_span(Span::raw("  "));
+    }
+    line.push_span(Span::styled(view.stage.title(), palette.here()));
+    let (at, of) = view.place;
+    if of > 1 {
+        line.push_span(Span::styled(format!(" {at}/{of}"), palette.quiet()));
+    }
+    if !view.heading.is_empty() && view.heading != view.stage.title() {
+        line.push_span(Span::styled(" · ", palette.quiet()));
+        let room = (area.width as usize).saturating_sub(line.width() + 1);
+        line.push_span(Span::styled(cut(&view.heading, room), palette.heading()));
+    }
+    frame.render_widget(line, row(1));
+    rule(frame, row(2), palette);
+}
+
+fn sign(progress: Progress, palette: Palette) -> (&'static str, ratatui::style::Style) {
+    match progress {
+        Progress::Done => ("✓", palette.tone(Tone::Good)),
+        Progress::Here => ("▸", palette.here()),
+        Progress::Ahead => ("·", palette.quiet()),
+    }
+}
+
+fn saving(saving: &Saving, palette: Palette) -> Line<'static> {
+    match saving {
+        Saving::Nothing => Line::default(),
+        Saving::Waiting => Line::styled("… saving ", palette.quiet()),
+        Saving::Saved => Line::styled("✓ saved ", palette.tone(Tone::Good)),
+        Saving::Failed(_) => Line::styled("✗ not saved ", palette.tone(Tone::Bad)),
+    }
+}
+
+fn sidebar(frame: &mut Frame, area: Rect, view: &View, palette: Palette) {
+    for (index, (stage, progress)) in view.stages.iter().enumerate() {
+        let y = area.y + 1 + 2 * index as u16;
+        if y >= area.bottom() {
+            break;
+        }
+        let (mark, style) = sign(*progress, palette);
+        let name = if *progress == Progress::Here {
+            palette.here()
+        } else {
+            style
+        };
+        let line = Line::from(vec![
+            Span::raw("  "),
+            Span::styled(mark, style),
+            Span::styled(format!(" {}", stage.title()), name),
+        ]);
+        frame.render_widget(
+            line,
+            Rect {
+                y,
+                height: 1,
+                ..area
+            },
+        );
+    }
+    for y in area.y..area.bottom() {
+        frame.render_widget(
+            Line::styled("│", palette.quiet()),
+            Rect {
+                x: area.right() - 1,
+                y,
+                width: 1,
+                height: 1,
+            },
+        );
+    }
+}
+
+/// Lines between page and field: what was said about the last key, what cannot be saved.
+fn notes(screen: &LessonScreen, width: usize) -> Vec<(Tone, String)> {
+    let mut notes: Vec<(Tone, String)> = Vec::new();
+    let mut say = |tone: Tone, says: &str| {
+        let lines = text::wrap_plain(says, width, &format!("{} ", text::symbol(tone)), "  ");
+        notes.extend(lines.into_iter().map(|line| (tone, line)));
+    };
+    for line in &screen.greeting {
+        say(Tone::Info, line);
+    }
+    if let Some(note) = screen
+        .view()
+        .note
+        .as_ref()
+        .filter(|note| !screen.greeting.contains(note))
+    {
+        say(Tone::Info, note);
+    }
+    if let Some(why) = &screen.leaving_unsaved {
+        say(
+            Tone::Bad,
+            &format!(
+                "Not everything is saved: {why}. q again leaves all the same; any other key stays."
+            ),
+        );
+    } else if let Saving::Failed(why) = &screen.view().saving {
+        say(
+            Tone::Bad,
+            &format!("Not saved: {why}. It is kept here and tried again."),
+        );
+    }
+    notes
+}
+
+/// The keys that work here.
+fn keys(screen: &LessonScreen) -> Vec<Key> {
+    let view = screen.view();
+    let mut keys: Vec<Key> = Vec::new();
+    let next = || {
+        if view.next_label.is_empty() {
+            "on"
+        } else {
+            view.next_label.as_str()
+        }
+    };
+    match (screen.focus, &screen.field) {
+        (Focus::Line, _) => {
+            let typed = screen
+                .field
+                .text()
+                .is_some_and(|text| !text.trim().is_empty());
+            keys.push(key("Enter", if typed { "answer" } else { next() }));
+            if view.can.hint.is_some() {
+                keys.push(key("Ctrl-T", hint_label(view)));
+            }
+            keys.push(key("↑↓", "scroll"));
+            keys.push(key("Esc", "leave field"));
+            return with_general(keys, &[("Ctrl-C", "quit"), ("F1", "help")]);
+        }
+        (Focus::Editor, _) => {
+            keys.push(key("Ctrl-S", "hand in"));
+            keys.push(key("Tab", "to the button"));
+            keys.push(key("PgUp/PgDn", "scroll"));
+            keys.push(key("Esc", "leave field"));
+            return with_general(keys, &[("Ctrl-C", "quit"), ("F1", "help")]);
+        }
+        (Focus::Button, _) => {
+            keys.push(key("Enter", "hand in"));
+            keys.push(key("Tab", "to the page"));
+        }
+        (Focus::Options, Field::Choice { .. }) => {
+            keys.push(key("↑↓", "choose"));
+            keys.push(key("Enter", "answer"));
+        }
+        (Focus::Options, Field::Order(order)) => {
+            keys.push(key("↑↓", if order.grabbed { "move it" } else { "choose" }));
+            keys.push(key("Space", if order.grabbed { "drop" } else { "grab" }));
+            keys.push(key("Enter", "hand in"));
+        }
+        (Focus::Options, _) => {
+            keys.push(key("y/n", "said it or not"));
+            keys.push(key("↑↓", "choose"));
+            keys.push(key("Enter", "done"));
+        }
+        _ => {
+            if screen.has_more_below() {
+                keys.push(key("Enter", "read on"));
+            } else if view.can.next {
+                keys.push(key("Enter", next()));
+            }
+            if view.input != Input::None {
+                keys.push(key("Tab", "to the field"));
+            }
+        }
+    }
+    if view.can.back {
+        keys.push(key("←", "back"));
+    }
+    if view.can.hint.is_some() {
+        keys.push(key("t", hint_label(view)));
+    }
+    if view.can.skip {
+        keys.push((
+            "s",
+            if view.skip_label.is_empty() {
+                "skip".into()
+            } else {
+                view.skip_label.clone()
+            },
+        ));
+    }
+    with_general(keys, &[("q", "quit"), ("?", "help")])
+}
+
+fn with_general(mut keys: Vec<Key>, general: &[(&'static str, &str)]) -> Vec<Key> {
+    keys.extend(general.iter().map(|(name, does)| key(name, does)));
+    keys
+}
+
+fn hint_label(view: &View) -> &'static str {
+    match view.can.hint {
+        Some(1) => "hint",
+        Some(2) => "second hint",
+        _ => "show the answer",
+    }
+}
+
+/// The beginning of a text that fits into `width` columns.
+fn cut(text: &str, width: usize) -> String {
+    if text.width() <= width {
+        return text.to_owned();
+    }
+    let mut short = String::new();
+    for letter in text.chars() {
+        if short.width() + 2 > width {
+            break;
+        }
+        short.push(letter);
+    }
+    short + "…"
+}

@@ -1,0 +1,78 @@
+//! The place of a picture on a page: the picture, or what keeps it.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::text::Line;
+use ratatui::widgets::Widget as _;
+use ratatui_image::sliced::{SignedPosition, SlicedImage};
+
+use super::style::Palette;
+use crate::tui::pictures::{Pictures, State};
+
+/// Rows for a picture of that width, its title and the names of its panels included.
+pub fn height(width: u16) -> u16 {
+    crate::tui::pictures::rows_for(width) + 2
+}
+
+/// Draws a picture `height` rows high that begins `offset` rows below the top of `window`
+/// (above it, where negative).
+#[allow(clippy::too_many_arguments)]
+pub fn draw(
+    pictures: &Pictures,
+    (lesson, id): (&str, &str),
+    title: &str,
+    height: u16,
+    offset: i32,
+    palette: Palette,
+    window: Rect,
+    buffer: &mut Buffer,
+) {
+    let mut line = |row: i32, line: Line| {
+        if (0..i32::from(window.height)).contains(&row) {
+            line.render(
+                Rect {
+                    y: window.y + row as u16,
+                    height: 1,
+                    ..window
+                },
+                buffer,
+            );
+        }
+    };
+    line(offset, Line::styled(title.to_owned(), palette.title()));
+    line(
+        offset + i32::from(height) - 1,
+        Line::styled(names(window.width as usize), palette.quiet()),
+    );
+    let middle = offset + i32::from(height / 2);
+    match pictures.state(lesson, id) {
+        Some(State::Ready(image)) => {
+            // Far outside of the window it does not matter how far.
+            let top = (offset + 1).clamp(i32::from(i16::MIN) / 2, i32::from(i16::MAX) / 2) as i16;
+            SlicedImage::new(image, SignedPosition::from((0, top))).render(window, buffer);
+        }
+        Some(State::Drawing { spinner }) => {
+            const FRAMES: [char; 8] = ['⠋', '⠙', '⠸', '⠴', '⠦', '⠇', '⠏', '⠋'];
+            let frame = FRAMES[spinner % FRAMES.len()];
+            line(
+                middle,
+                Line::styled(format!("  {frame} drawing the picture …"), palette.quiet()),
+            );
+        }
+        Some(State::Failed(reason)) => {
+            line(
+                middle,
+                Line::styled(format!("  ! no picture: {reason}"), palette.quiet()),
+            );
+        }
+        None => {}
+    }
+}
+
+/// The names of the three panels, each below its own.
+fn names(width: usize) -> String {
+    let third = width / 3;
+    ["correct", "buggy", "log2 of the ratio"]
+        .map(|name| format!("{name:^third$}"))
+        .concat()
+}

@@ -1,0 +1,126 @@
+//! What the learner types or arranges into, one widget for each kind of input.
+
+use ratatui_textarea::{CursorMove, TextArea, WrapMode};
+use tutor::view::Input;
+
+use super::keys::Focus;
+
+/// The field of a screen, with what stands in it.
+pub enum Field {
+    None,
+    Line(Box<TextArea<'static>>),
+    Editor(Box<TextArea<'static>>),
+    Choice { at: usize },
+    Order(Order),
+    Checklist { at: usize },
+}
+
+/// Items being put in order.
+pub struct Order {
+    /// Places of the items as they were shown, in the order they have now.
+    pub places: Vec<usize>,
+    pub at: usize,
+    /// The item at `at` moves with the arrows.
+    pub grabbed: bool,
+}
+
+impl Field {
+    pub fn of(input: &Input) -> Self {
+        match input {
+            Input::None => Self::None,
+            Input::Number { .. } => Self::Line(Box::new(line(""))),
+            Input::Text { draft, .. } => Self::Editor(Box::new(editor(draft))),
+            Input::Choice { .. } => Self::Choice { at: 0 },
+            Input::Order { items } => Self::Order(Order {
+                places: (0..items.len()).collect(),
+                at: 0,
+                grabbed: false,
+            }),
+            Input::Checklist { .. } => Self::Checklist { at: 0 },
+        }
+    }
+
+    /// Who gets the keys while this field is used.
+    pub fn focus(&self) -> Focus {
+        match self {
+            Self::None => Focus::Page,
+            Self::Line(_) => Focus::Line,
+            Self::Editor(_) => Focus::Editor,
+            Self::Choice { .. } | Self::Order(_) | Self::Checklist { .. } => Focus::Options,
+        }
+    }
+
+    /// What stands in a text field.
+    pub fn text(&self) -> Option<String> {
+        match self {
+            Self::Line(area) | Self::Editor(area) => Some(area.lines().join("\n")),
+            _ => None,
+        }
+    }
+
+    pub fn paste(&mut self, text: &str) {
+        // Terminals send line breaks of a paste as carriage returns.
+        let text = text.replace("\r\n", "\n").replace('\r', "\n");
+        match self {
+            Self::Line(area) => {
+                area.insert_str(text.replace('\n', " ").trim());
+            }
+            Self::Editor(area) => {
+                area.insert_str(text);
+            }
+            _ => {}
+        }
+    }
+
+    /// Moves the choice up or down; `count` options there are.
+    pub fn step(&mut self, down: bool, count: usize) {
+        let moved = |at: usize| {
+            if down {
+                (at + 1).min(count.saturating_sub(1))
+            } else {
+                at.saturating_sub(1)
+            }
+        };
+        match self {
+            Self::Choice { at } | Self::Checklist { at } => *at = moved(*at),
+            Self::Order(order) => {
+                let to = moved(order.at);
+                if order.grabbed {
+                    order.places.swap(order.at, to);
+                }
+                order.at = to;
+            }
+            _ => {}
+        }
+    }
+}
+
+impl Order {
+    /// The order as it is handed in: "2 1 3".
+    pub fn answer(&self) -> String {
+        let numbers: Vec<String> = self
+            .places
+            .iter()
+            .map(|place| (place + 1).to_string())
+            .collect();
+        numbers.join(" ")
+    }
+}
+
+fn line(text: &str) -> TextArea<'static> {
+    let mut area = TextArea::new(vec![text.to_owned()]);
+    area.set_cursor_line_style(ratatui::style::Style::new());
+    area.move_cursor(CursorMove::End);
+    area
+}
+
+fn editor(draft: &str) -> TextArea<'static> {
+    let lines: Vec<String> = draft.split('\n').map(str::to_owned).collect();
+    let mut area = TextArea::new(lines);
+    area.set_cursor_line_style(ratatui::style::Style::new());
+    area.set_wrap_mode(WrapMode::WordOrGlyph);
+    area.set_max_histories(500);
+    area.move_cursor(CursorMove::Bottom);
+    area.move_cursor(CursorMove::End);
+    area
+}

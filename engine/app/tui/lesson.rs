@@ -1,0 +1,352 @@
+//! The screen of a lesson: what a key does to the session, and what of it is in view.
+
+use std::time::{Duration, Instant};
+
+use tutor::session::Msg;
+use tutor::view::{Input, View};
+
+use super::draw::page::Page;
+use super::draw::style::Palette;
+use super::field::Field;
+use super::keys::{Action, Focus};
+use crate::sitting::{Request, Sitting};
+
+/// A pause in typing after which the draft is saved.
+const DRAFT_AFTER: Duration = Duration::from_millis(1500);
+
+/// What the loop does next.
+#[must_use]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Flow {
+    Stay,
+    /// The lesson is left, or at its end.
+    Leave,
+}
+
+/// The state of the screen; drawing takes a shared reference.
+pub struct LessonScreen {
+    pub sitting: Sitting,
+    pub field: Field,
+    pub focus: Focus,
+    pub page: Page,
+    pub scroll: usize,
+    /// Rows in which the page is seen.
+    pub window: usize,
+    /// Said before the lesson starts, until a key is pressed.
+    pub greeting: Vec<String>,
+    /// Leaving would lose something: the next `q` means it.
+    pub leaving_unsaved: Option<String>,
+    /// What the field and the page were made for.
+    shown: View,
+    laid_out_for: u16,
+    palette: Palette,
+    /// When the text was last changed, where that is not saved yet.
+    typed: Option<Instant>,
+}
+
+impl LessonScreen {
+    pub fn new(sitting: Sitting, palette: Palette) -> Self {
+        let shown = sitting.view().clone();
+        let field = Field::of(&shown.input);
+        let mut greeting: Vec<String> = sitting
+            .notices
+            .iter()
+            .map(|notice| notice.says.clone())
+            .collect();
+        if sitting.resumed && greeting.is_empty() {
+            greeting.push("Going on where you left.".into());
+        }
+        Self {
+            focus: field.focus(),
+            page: Page::new(&shown.blocks, 80, palette),
+            scroll: 0,
+            window: 1,
+            greeting,
+            leaving_unsaved: None,
+            laid_out_for: 80,
+            palette,
+            typed: None,
+            sitting,
+            field,
+            shown,
+        }
+    }
+
+    pub fn view(&self) -> &View {
+        &self.shown
+    }
+
+    /// Lays the page out for a window of that size.
+    pub fn fit(&mut self, width: u16, height: u16) {
+        if self.laid_out_for != width {
+            self.page = Page::new(&self.shown.blocks, width, self.palette);
+            self.laid_out_for = width;
+        }
+        self.window = height as usize;
+        self.scroll = self.scroll.min(self.last_scroll());
+    }
+
+    fn last_scroll(&self) -> usize {
+        self.page.height().saturating_sub(self.window)
+    }
+
+    /// Whether something stands below the window.
+    pub fn has_more_below(&self) -> bool {
+        self.scroll < self.last_scroll()
+    }
+
+    /// How long the loop may sleep, where something waits to be done here.
+    pub fn wakes_in(&self) -> Option<Duration> {
+        const SAVING: Duration = Duration::from_millis(10);
+        if self.sitting.is_saving() {
+            return Some(SAVING);
+        }
+        self.typed
+            .map(|when| DRAFT_AFTER.saturating_sub(when.elapsed()))
+    }
+
+    /// Does what waits. True where the screen changed.
+    pub fn tend(&mut self) -> bool {
+        if self.typed.is_some_and(|when| when.elapsed() >= DRAFT_AFTER) {
+            self.save_draft();
+        }
+        let changed = self.sitting.collect();
+        if changed {
+            self.refresh();
+        }
+        changed
+    }
+
+    /// What an action of the learner does.
+    pub fn act(&mut self, action: Action) -> Flow {
+        self.greeting.clear();
+        if self.leaving_unsaved.is_some() && action != Action::Quit {
+            self.leaving_unsaved = None;
+            return Flow::Stay;
+        }
+        match action {
+            Action::Quit => return self.leave(),
+            Action::Enter => return self.enter(),
+            Action::HandIn => return self.hand_in(),
+            Action::Back => return self.send_if(self.shown.can.back, Msg::Back),
+            Action::Skip => return self.send_if(self.shown.can.skip, Msg::Skip),
+            Action::Hint => return self.send_if(self.shown.can.hint.is_some(), Msg::Hint),
+            Action::Up => self.up_or_down(false),
+            Action::Down => self.up_or_down(true),
+            Action::PageUp => {
+                self.scroll = self
+                    .scroll
+                    .saturating_sub(self.window.saturating_sub(2).max(1))
+            }
+            Action::PageDown => self.page_down(),
+            Action::Top => self.scroll = 0,
+            Action::Bottom => self.scroll = self.last_scroll(),
+            Action::NextFocus => self.next_focus(),
+            Action::Leave => self.focus = Focus::Page,
+            Action::Toggle => return self.toggle(None),
+            Action::Yes => return self.toggle(Some(true)),
+            Action::No => return self.toggle(Some(false)),
+            Action::Pick(index) => self.pick(index),
+            Action::Edit(edit) => match &mut self.field {
+                Field::Line(area) | Field::Editor(area) if area.input(edit) => {
+                    self.typed = Some(Instant::now());
+                }
+                _ => {}
+            },
+            Action::Paste(text) => {
+                if matches!(self.focus, Focus::Line | Focus::Editor) {
+                    self.field.paste(&text);
+                    self.typed = Some(Instant::now());
+                }
+            }
+            Action::Help | Action::Redraw | Action::Nothing => {}
+        }
+        Flow::Stay
+    }
+
+    fn enter(&mut self) -> Flow {
+        match (self.focus, &self.field) {
+            (Focus::Line, Field::Line(_)) => {
+                let text = self.field.text().unwrap_or_default();
+                let msg = if text.trim().is_empty() {
+                    Msg::Next
+                } else {
+                    Msg::Answer(text.trim().to_owned())
+                };
+                self.send(msg)
+            }
+            (Focus::Options, Field::Choice { at }) => {
+                let letter = char::from(b'a' + u8::try_from(*at).unwrap_or(0).min(25));
+                self.send(Msg::Answer(letter.to_string()))
+            }
+            (Focus::Options, Field::Order(order)) => self.send(Msg::Answer(order.answer())),
+            (Focus::Options, Field::Checklist { .. }) => self.send(Msg::ChecklistDone),
+            // What was not read yet comes first.
+            _ if self.has_more_below() => {
+                self.page_down();
+                Flow::Stay
+            }
+            _ if self.shown.can.next => self.send(Msg::Next),
+            _ => {
+                self.focus = self.field.focus();
+                Flow::Stay
+            }
+        }
+    }
+
+    fn hand_in(&mut self) -> Flow {
+        match &self.field {
+            Field::Editor(_) => {
+                let text = self.field.text().unwrap_or_default();
+                self.typed = None;
+                self.send(Msg::Answer(text))
+            }
+            _ => Flow::Stay,
+        }
+    }
+
+    fn up_or_down(&mut self, down: bool) {
+        let count = match &self.shown.input {
+            Input::Choice { options } => options.len(),
+            Input::Order { items } => items.len(),
+            Input::Checklist { points } => points.len(),
+            _ => 0,
+        };
+        if self.focus == Focus::Options {
+            self.field.step(down, count);
+        } else if down {
+            self.scroll = (self.scroll + 1).min(self.last_scroll());
+        } else {
+            self.scroll = self.scroll.saturating_sub(1);
+        }
+    }
+
+    fn page_down(&mut self) {
+        self.scroll = (self.scroll + self.window.saturating_sub(2).max(1)).min(self.last_scroll());
+    }
+
+    fn next_focus(&mut self) {
+        self.focus = match (self.focus, &self.field) {
+            (Focus::Editor, _) => Focus::Button,
+            (Focus::Page, field) => field.focus(),
+            _ => Focus::Page,
+        };
+    }
+
+    fn toggle(&mut self, wanted: Option<bool>) -> Flow {
+        match (&mut self.field, &self.shown.input) {
+            (Field::Order(order), _) if wanted.is_none() => {
+                order.grabbed = !order.grabbed;
+                Flow::Stay
+            }
+            (Field::Checklist { at }, Input::Checklist { points }) => {
+                let Some(point) = points.get(*at) else {
+                    return Flow::Stay;
+                };
+                let said = wanted.unwrap_or(point.said != Some(true));
+                let msg = Msg::Mark { point: *at, said };
+                if wanted.is_some() {
+                    *at = (*at + 1).min(points.len() - 1);
+                }
+                self.send(msg)
+            }
+            _ => Flow::Stay,
+        }
+    }
+
+    fn pick(&mut self, index: usize) {
+        match (&mut self.field, &self.shown.input) {
+            (Field::Choice { at }, Input::Choice { options }) if index < options.len() => {
+                *at = index
+            }
+            (Field::Order(order), _) if index < order.places.len() => order.at = index,
+            (Field::Checklist { at }, Input::Checklist { points }) if index < points.len() => {
+                *at = index
+            }
+            _ => {}
+        }
+    }
+
+    fn send_if(&mut self, can: bool, msg: Msg) -> Flow {
+        if can { self.send(msg) } else { Flow::Stay }
+    }
+
+    fn send(&mut self, msg: Msg) -> Flow {
+        let clears = matches!(msg, Msg::Answer(_));
+        if !clears {
+            self.save_draft();
+        }
+        let requests = self.sitting.tell(msg);
+        if clears && let Field::Line(_) = self.field {
+            self.field = Field::of(&self.shown.input);
+        }
+        self.refresh();
+        if requests.contains(&Request::Leave) {
+            Flow::Leave
+        } else {
+            Flow::Stay
+        }
+    }
+
+    /// Hands the text over that was not handed in, so that leaving keeps it.
+    pub fn save_draft(&mut self) {
+        if self.typed.take().is_some()
+            && let Field::Editor(_) = &self.field
+        {
+            let text = self.field.text().unwrap_or_default();
+            // A draft asks for nothing but to be saved.
+            let _ = self.sitting.tell(Msg::Draft(text));
+        }
+    }
+
+    fn leave(&mut self) -> Flow {
+        if self.leaving_unsaved.is_some() {
+            return Flow::Leave;
+        }
+        self.save_draft();
+        let _ = self.sitting.tell(Msg::Quit);
+        self.sitting.settle();
+        self.refresh();
+        if let tutor::view::Saving::Failed(why) = &self.shown.saving {
+            self.leaving_unsaved = Some(why.clone());
+            return Flow::Stay;
+        }
+        Flow::Leave
+    }
+
+    /// Takes over what the session shows now.
+    fn refresh(&mut self) {
+        let view = self.sitting.view();
+        let before = std::mem::replace(&mut self.shown, view.clone());
+        let view = &self.shown;
+        let other_screen = view.key != before.key;
+        if other_screen || !same_input(&view.input, &before.input) {
+            self.field = Field::of(&view.input);
+            self.focus = self.field.focus();
+            self.typed = None;
+        }
+        if other_screen || view.blocks != before.blocks {
+            self.page = Page::new(&view.blocks, self.laid_out_for, self.palette);
+            self.scroll = if other_screen {
+                0
+            } else {
+                // What is new is in view; what was read may scroll away.
+                self.page
+                    .start_of(before.blocks.len())
+                    .min(self.last_scroll())
+            };
+        }
+    }
+}
+
+/// Whether a field made for one serves for the other, text and all.
+fn same_input(a: &Input, b: &Input) -> bool {
+    match (a, b) {
+        (Input::Text { label: a, .. }, Input::Text { label: b, .. }) => a == b,
+        (Input::Checklist { points: a }, Input::Checklist { points: b }) => a
+            .iter()
+            .map(|point| &point.text)
+            .eq(b.iter().map(|point| &point.text)),
+        _ => a == b,
+    }
+}

@@ -1,0 +1,268 @@
+//! The tutor on the screen: one loop that waits for keys, tells the state, and draws it.
+//!
+//! Nothing is drawn while nothing happens; the loop wakes sooner only while something of its
+//! own is under way (a log being written, a draft to be kept, a picture being drawn).
+
+pub mod draw;
+pub mod field;
+pub mod guard;
+pub mod keys;
+pub mod lesson;
+pub mod picker;
+pub mod pictures;
+pub mod probe;
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use crossterm::event;
+use ratatui::Frame;
+use tutor::Lesson;
+
+use self::draw::style::Palette;
+use self::guard::Guard;
+use self::keys::{Action, Focus};
+use self::lesson::{Flow, LessonScreen};
+use self::picker::{Chosen, Picker};
+use self::pictures::Pictures;
+use crate::exit::{Done, Failure, plain_reason};
+use crate::lessons::Shelf;
+use crate::sitting::{Sitting, Wish};
+use crate::store::Store;
+
+/// How long the loop sleeps while nothing is under way; only a signal waits for it.
+const IDLE: Duration = Duration::from_millis(500);
+
+/// What is on the screen.
+enum Screen {
+    Picker(Picker),
+    Lesson(Box<LessonScreen>),
+}
+
+struct App<'a> {
+    shelf: &'a Shelf,
+    store: &'a Store,
+    screen: Screen,
+    /// How far the help is scrolled, while it lies over the screen.
+    help: Option<usize>,
+    pictures: Pictures,
+    palette: Palette,
+    /// Whether leaving a lesson leads to the list.
+    from_list: bool,
+}
+
+/// What to open.
+pub enum Open<'a> {
+    List,
+    Lesson(&'a Arc<Lesson>, Wish),
+}
+
+/// Runs the tutor until the learner leaves.
+pub fn run(shelf: &Shelf, store: &Store, open: Open) -> Result<Done, Failure> {
+    let palette = Palette::from_env();
+    let (screen, from_list) = match open {
+        Open::List => (Screen::Picker(Picker::new(shelf, store)), true),
+        Open::Lesson(lesson, wish) => {
+            let sitting = Sitting::open(lesson, store, wish)?;
+            (
+                Screen::Lesson(Box::new(LessonScreen::new(sitting, palette))),
+                false,
+            )
+        }
+    };
+    let mut app = App {
+        shelf,
+        store,
+        screen,
+        help: None,
+        pictures: Pictures::default(),
+        palette,
+        from_list,
+    };
+    let result = app.run_in_terminal();
+    let parting = app.part();
+    result?;
+    parting
+}
+
+impl App<'_> {
+    fn run_in_terminal(&mut self) -> Result<(), Failure> {
+        let broken = |error: std::io::Error| {
+            Failure::unusable(format!("the terminal gave up: {}", plain_reason(&error)))
+        };
+        let (_guard, mut terminal) = Guard::take().map_err(broken)?;
+        let mut redraw = true;
+        loop {
+            if redraw {
+                let size = terminal.size().map_err(broken)?;
+                self.fit(size.into());
+                terminal.draw(|frame| self.draw(frame)).map_err(broken)?;
+                // After the first frame, so that it need not wait for the terminal's answer.
+                self.want_pictures();
+            }
+            redraw = false;
+            if event::poll(self.wakes_in()).map_err(broken)? {
+                // All keys that wait are one step: a held key never runs ahead of the screen.
+                loop {
+                    let action = keys::action(event::read().map_err(broken)?, self.focus());
+                    if action == Action::Redraw {
+                        terminal.clear().map_err(broken)?;
+                    }
+                    redraw |= action != Action::Nothing;
+                    if self.act(action)? == Flow::Leave {
+                        return Ok(());
+                    }
+                    if !event::poll(Duration::ZERO).map_err(broken)? {
+                        break;
+                    }
+                }
+            }
+            if guard::signalled().is_some() {
+                return Ok(());
+            }
+            redraw |= self.tend();
+        }
+    }
+
+    fn focus(&self) -> Focus {
+        match (&self.screen, self.help) {
+            (_, Some(_)) => Focus::Help,
+            (Screen::Picker(_), None) => Focus::Picker,
+            (Screen::Lesson(lesson), None) => lesson.focus,
+        }
+    }
+
+    fn wakes_in(&self) -> Duration {
+        let lesson = match &self.screen {
+            Screen::Lesson(lesson) => lesson.wakes_in(),
+            Screen::Picker(_) => None,
+        };
+        [lesson, self.pictures.wakes_in()]
+            .into_iter()
+            .flatten()
+            .fold(IDLE, Duration::min)
+    }
+
+    /// Does what waits. True where the screen changed.
+    fn tend(&mut self) -> bool {
+        let turning = self.pictures.wakes_in().is_some();
+        let finished = self.pictures.collect();
+        let told = match &mut self.screen {
+            Screen::Lesson(lesson) => lesson.tend(),
+            Screen::Picker(_) => false,
+        };
+        turning || finished || told
+    }
+
+    fn act(&mut self, action: Action) -> Result<Flow, Failure> {
+        if let Some(scroll) = self.help {
+            self.help = match action {
+                Action::Leave => None,
+                Action::Up => Some(scroll.saturating_sub(1)),
+                Action::Down => Some(scroll + 1),
+                Action::Quit => return Ok(self.leave_now()),
+                _ => Some(scroll),
+            };
+            return Ok(Flow::Stay);
+        }
+        if action == Action::Help {
+            self.help = Some(0);
+            return Ok(Flow::Stay);
+        }
+        match &mut self.screen {
+            Screen::Picker(picker) => match picker.act(&action) {
+                Chosen::Nothing => Ok(Flow::Stay),
+                Chosen::Leave => Ok(Flow::Leave),
+                Chosen::Lesson { lesson } => {
+                    let sitting = Sitting::open(&lesson, self.store, Wish::default())?;
+                    self.screen =
+                        Screen::Lesson(Box::new(LessonScreen::new(sitting, self.palette)));
+                    Ok(Flow::Stay)
+                }
+            },
+            Screen::Lesson(lesson) => {
+                if lesson.act(action) == Flow::Stay {
+                    return Ok(Flow::Stay);
+                }
+                if !self.from_list {
+                    return Ok(Flow::Leave);
+                }
+                lesson.sitting.settle();
+                let said = "Saved. You come back to this very screen.".to_owned();
+                let mut picker = Picker::new(self.shelf, self.store);
+                picker.said = Some(said);
+                self.screen = Screen::Picker(picker);
+                Ok(Flow::Stay)
+            }
+        }
+    }
+
+    fn leave_now(&mut self) -> Flow {
+        match &mut self.screen {
+            Screen::Lesson(lesson) => lesson.act(Action::Quit),
+            Screen::Picker(_) => Flow::Leave,
+        }
+    }
+
+    fn fit(&mut self, area: ratatui::layout::Rect) {
+        if let Screen::Lesson(lesson) = &mut self.screen
+            && draw::has_room(area)
+        {
+            // The field's height follows from the width alone, so once is enough.
+            let page = draw::lesson::Areas::new(lesson, area).page;
+            lesson.fit(page.width, page.height);
+        }
+    }
+
+    fn draw(&self, frame: &mut Frame) {
+        if !draw::has_room(frame.area()) {
+            draw::too_small(frame);
+            return;
+        }
+        match &self.screen {
+            Screen::Picker(picker) => draw::picker::draw(frame, picker, self.palette),
+            Screen::Lesson(lesson) => {
+                draw::lesson::draw(frame, lesson, &self.pictures, self.palette)
+            }
+        }
+        if let Some(scroll) = self.help {
+            draw::help::draw(
+                frame,
+                scroll.min(draw::help::last_scroll(frame.area().height)),
+                self.palette,
+            );
+        }
+    }
+
+    fn want_pictures(&mut self) {
+        match &self.screen {
+            Screen::Lesson(lesson) => {
+                let taught = Arc::clone(lesson.sitting.lesson());
+                self.pictures.want(&taught, lesson.page.pictures());
+            }
+            Screen::Picker(_) => {}
+        }
+    }
+
+    /// Saves what is left, and says so on the terminal that was given back.
+    fn part(self) -> Result<Done, Failure> {
+        let Screen::Lesson(mut lesson) = self.screen else {
+            return Ok(Done::Fine);
+        };
+        lesson.save_draft();
+        let id = lesson.sitting.lesson().id.text.clone();
+        match lesson.sitting.close() {
+            Ok(()) => {
+                // The terminal may be gone: then there is nobody to tell.
+                let _ = crate::output::line(&format!(
+                    "Saved. `lobe learn {id}` goes on where you left."
+                ));
+                Ok(Done::Fine)
+            }
+            Err(why) => Err(Failure::unusable(format!(
+                "not saved in {}: {why}; make room there or name another folder with --progress",
+                self.store.folder.display()
+            ))),
+        }
+    }
+}

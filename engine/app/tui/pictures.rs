@@ -1,0 +1,183 @@
+//! Pictures of the screen: drawn in the background, dropped when the learner moves on.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{self, Receiver, Sender};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use image::{DynamicImage, RgbaImage};
+use ratatui::layout::Size;
+use ratatui_image::Resize;
+use ratatui_image::picker::{Picker, ProtocolType};
+use ratatui_image::sliced::SlicedProtocol;
+use tutor::Lesson;
+
+use super::probe;
+use crate::fingerprints::fingerprint;
+
+/// A spinner turns this often.
+const TURN: Duration = Duration::from_millis(100);
+
+/// What a picture is, besides the lesson: id and size in cells.
+type Key = (String, String, u16, u16);
+
+/// A picture that was asked for.
+enum Job {
+    Drawing {
+        cancel: Arc<AtomicBool>,
+        since: Instant,
+    },
+    Ready(SlicedProtocol),
+    Failed(String),
+}
+
+/// A picture as it is seen.
+pub enum State<'a> {
+    Drawing { spinner: usize },
+    Ready(&'a SlicedProtocol),
+    Failed(&'a str),
+}
+
+/// All pictures of the screen.
+pub struct Pictures {
+    picker: Option<Picker>,
+    jobs: HashMap<Key, Job>,
+    finished: Receiver<(Key, Result<SlicedProtocol, String>)>,
+    finish: Sender<(Key, Result<SlicedProtocol, String>)>,
+}
+
+impl Default for Pictures {
+    fn default() -> Self {
+        let (finish, finished) = mpsc::channel();
+        Self {
+            picker: None,
+            jobs: HashMap::new(),
+            finished,
+            finish,
+        }
+    }
+}
+
+/// Rows that three square panels side by side take in `width` columns.
+pub fn rows_for(width: u16) -> u16 {
+    (width / 6).max(3)
+}
+
+impl Pictures {
+    /// Has the pictures drawn that are on the screen, and drops the others. The first wish asks
+    /// the terminal what it can show, so that the first frame need not wait for its answer.
+    pub fn want<'a>(
+        &mut self,
+        lesson: &Arc<Lesson>,
+        wanted: impl Iterator<Item = (&'a str, &'a str, u16, u16)>,
+    ) {
+        let wanted: Vec<Key> = wanted
+            .map(|(lesson, id, width, height)| (lesson.to_owned(), id.to_owned(), width, height))
+            .collect();
+        self.jobs.retain(|key, job| {
+            let keep = wanted.contains(key);
+            if let (false, Job::Drawing { cancel, .. }) = (keep, job) {
+                cancel.store(true, Ordering::Relaxed);
+            }
+            keep
+        });
+        for key in wanted {
+            if !self.jobs.contains_key(&key) {
+                let picker = self.picker.get_or_insert_with(probe::picker).clone();
+                let job = start(key.clone(), Arc::clone(lesson), picker, self.finish.clone());
+                self.jobs.insert(key, job);
+            }
+        }
+    }
+
+    /// Takes what was finished. True where the screen changed.
+    pub fn collect(&mut self) -> bool {
+        let mut changed = false;
+        while let Ok((key, result)) = self.finished.try_recv() {
+            if let Some(job) = self.jobs.get_mut(&key) {
+                *job = result.map_or_else(Job::Failed, Job::Ready);
+                changed = true;
+            }
+        }
+        changed
+    }
+
+    /// When the screen has to be drawn again, where a spinner turns.
+    pub fn wakes_in(&self) -> Option<Duration> {
+        self.jobs
+            .values()
+            .any(|job| matches!(job, Job::Drawing { .. }))
+            .then_some(TURN)
+    }
+
+    /// How the picture stands, at whatever size.
+    pub fn state(&self, lesson: &str, id: &str) -> Option<State<'_>> {
+        let (_, job) = self
+            .jobs
+            .iter()
+            .find(|(key, _)| key.0 == lesson && key.1 == id)?;
+        Some(match job {
+            Job::Drawing { since, .. } => State::Drawing {
+                spinner: (since.elapsed().as_millis() / TURN.as_millis()) as usize,
+            },
+            Job::Ready(image) => State::Ready(image),
+            Job::Failed(why) => State::Failed(why),
+        })
+    }
+}
+
+fn start(
+    key: Key,
+    lesson: Arc<Lesson>,
+    picker: Picker,
+    finish: Sender<(Key, Result<SlicedProtocol, String>)>,
+) -> Job {
+    let cancel = Arc::new(AtomicBool::new(false));
+    let cancelled = Arc::clone(&cancel);
+    thread::spawn(move || {
+        // A driver may panic; that is a picture that failed, not the end of the lesson.
+        let drawn = std::panic::catch_unwind(|| draw(&key, &lesson, &picker, &cancelled));
+        let result = drawn.unwrap_or_else(|_| Err("the drawing broke down".to_owned()));
+        // The screen may have moved on.
+        let _ = finish.send((key, result));
+    });
+    Job::Drawing {
+        cancel,
+        since: Instant::now(),
+    }
+}
+
+fn draw(
+    key: &Key,
+    lesson: &Lesson,
+    picker: &Picker,
+    cancel: &AtomicBool,
+) -> Result<SlicedProtocol, String> {
+    let (_, id, width, height) = key;
+    let fingerprint = fingerprint(lesson, id).ok_or("the lesson has no such picture")?;
+    let cell = match picker.protocol_type() {
+        // Half-blocks have two pixels a cell; twice that, to be averaged.
+        ProtocolType::Halfblocks => 2,
+        _ => u32::from(picker.font_size().width),
+    };
+    let size = (u32::from(*width) * cell / 3).clamp(64, 1024);
+    let options = renders::Options {
+        size,
+        compact: true,
+        ..renders::Options::default()
+    };
+    let picture =
+        renders::render(&fingerprint, &options, cancel).map_err(|error| error.to_string())?;
+    let image = RgbaImage::from_raw(picture.width, picture.height, picture.rgba)
+        .ok_or("the picture has the wrong size")?;
+    let area = Size::new(*width, *height);
+    SlicedProtocol::new_with_resize(
+        picker,
+        DynamicImage::ImageRgba8(image),
+        area,
+        Resize::Scale(None),
+    )
+    .map_err(|error| error.to_string())
+}
