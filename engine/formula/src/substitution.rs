@@ -33,6 +33,21 @@ pub struct Substitution {
     pub shown: String,
 }
 
+/// The body of a definition that is called, and what its names stand for.
+struct Opened<'l> {
+    body: &'l Expr,
+    values: Values,
+    /// Equations that a reader needs, `c = N·V`.
+    notes: Vec<String>,
+}
+
+/// One parameter of a call.
+struct Bound<'l> {
+    param: &'l str,
+    value: f64,
+    note: Option<String>,
+}
+
 impl Library {
     /// Puts numbers into a formula.
     ///
@@ -50,16 +65,16 @@ impl Library {
         let mut values = values.clone();
         let mut body = expr;
         for _ in 0..MOST_OPENED {
-            let Some((opened, inner, notes)) = self.open(body, &values)? else {
+            let Some(opened) = self.open(body, &values)? else {
                 break;
             };
-            let symbols = Board::symbols(self).write(opened);
+            let symbols = Board::symbols(self).write(opened.body);
             lines.clear();
-            lines.push(match notes.is_empty() {
+            lines.push(match opened.notes.is_empty() {
                 true => symbols,
-                false => format!("{symbols}  with {}", notes.join(", ")),
+                false => format!("{symbols}  with {}", opened.notes.join(", ")),
             });
-            (body, values) = (opened, inner);
+            (body, values) = (opened.body, opened.values);
         }
         let least = significant_digits(&shown).unwrap_or(4).max(3) + 1;
         let line = Lines {
@@ -81,12 +96,7 @@ impl Library {
 
     /// The body of the definition that an expression calls, the values its names have, and
     /// what to say about them.
-    #[allow(clippy::type_complexity)]
-    fn open<'l>(
-        &'l self,
-        expr: &Expr,
-        values: &Values,
-    ) -> Result<Option<(&'l Expr, Values, Vec<String>)>, Error> {
+    fn open(&self, expr: &Expr, values: &Values) -> Result<Option<Opened<'_>>, Error> {
         let Node::Call { name, args } = &expr.node else {
             return Ok(None);
         };
@@ -95,7 +105,7 @@ impl Library {
         };
         let mut inner = values.clone();
         let mut notes = Vec::new();
-        for (param, value, note) in self.bound(expr, values)? {
+        for Bound { param, value, note } in self.bound(expr, values)? {
             // A parameter hides the given that would be its other name.
             if let Some((other, _)) = twin(param)
                 && !definition.params.iter().any(|own| own == other)
@@ -105,15 +115,15 @@ impl Library {
             inner.insert(param.to_string(), value);
             notes.extend(note);
         }
-        Ok(Some((&definition.body, inner, notes)))
+        Ok(Some(Opened {
+            body: &definition.body,
+            values: inner,
+            notes,
+        }))
     }
 
     /// Every parameter of a call with its value, and the equation that a reader needs.
-    fn bound<'l>(
-        &'l self,
-        expr: &Expr,
-        values: &Values,
-    ) -> Result<Vec<(&'l str, f64, Option<String>)>, Error> {
+    fn bound(&self, expr: &Expr, values: &Values) -> Result<Vec<Bound<'_>>, Error> {
         let Node::Call { name, args } = &expr.node else {
             return Ok(Vec::new());
         };
@@ -148,7 +158,7 @@ impl Library {
                 };
                 format!("{} = {right}", unicode_name(param))
             });
-            bound.push((param, value, note));
+            bound.push(Bound { param, value, note });
         }
         Ok(bound)
     }
@@ -164,7 +174,7 @@ impl Library {
         let bound = self.bound(expr, values)?;
         let args = bound
             .into_iter()
-            .map(|(param, value, _)| Arg {
+            .map(|Bound { param, value, .. }| Arg {
                 name: Some(param.to_string()),
                 value: signed(value),
             })

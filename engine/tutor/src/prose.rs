@@ -42,6 +42,22 @@ pub fn plain(inlines: &[Inline]) -> String {
     inlines.iter().map(Inline::text).collect()
 }
 
+/// Blocks of prose as plain text, a line each, lists with dashes.
+pub fn plain_blocks(blocks: &[Block]) -> String {
+    let mut lines = Vec::new();
+    for block in blocks {
+        match block {
+            Block::Paragraph(inlines) | Block::Quote(inlines) => lines.push(plain(inlines)),
+            Block::Heading(text) | Block::CodeBlock(text) => lines.push(text.clone()),
+            Block::List { items, .. } => {
+                lines.extend(items.iter().map(|item| format!("- {}", plain(item))));
+            }
+            _ => {}
+        }
+    }
+    lines.join("\n")
+}
+
 /// How a verdict feels; colour and symbol follow from it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Tone {
@@ -187,6 +203,11 @@ impl Lesson {
             }
         }
         inlines
+    }
+
+    /// Prose with its templates filled, still Markdown.
+    pub fn filled(&self, text: &str, values: &Values) -> String {
+        template::fill(self, text, values).markdown()
     }
 
     /// A name in the field's spelling: `n_dot_h` as N·H, `alpha` as α.

@@ -2,16 +2,22 @@
 //!
 //! Everything here is pure: the same lesson and seed give the same draw on every machine.
 
+mod chain;
 mod draw;
 mod hint;
 mod mark;
+pub(crate) mod plan;
+pub(crate) mod random;
 pub mod report;
+mod words;
 
 use formula::Values;
 
-pub use draw::draw;
-pub use hint::{hint, tolerance_words};
+pub use draw::{MOST_TRIES, draw};
+pub use hint::{after_right, hint, tolerance_words};
 pub use mark::{Marking, OffBy, mark};
+
+use crate::lesson::Exercise;
 
 /// An exercise with its numbers.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,4 +85,17 @@ pub struct Mistake {
 pub struct NoDraw {
     /// One sentence.
     pub message: String,
+}
+
+/// How many significant digits a learner is told to keep: the author's number, else what the
+/// tolerance asks for (2 % where three will do, 1 % where four are needed).
+pub(crate) fn digits_kept(exercise: &Exercise) -> u32 {
+    exercise
+        .keep
+        .unwrap_or(if exercise.tolerance.rel >= 0.02 { 3 } else { 4 })
+}
+
+/// A relative tolerance in percent: 0.01 as `1`.
+pub(crate) fn percent(rel: f64) -> String {
+    crate::prose::shortest(rel * 100.0)
 }

@@ -187,6 +187,10 @@ impl Lexicon {
     fn add(&mut self, entry: &str, concept: Id) {
         let mut words = Vec::new();
         for raw in entry.split_whitespace() {
+            // Articles come and go inside an expression.
+            if !words.is_empty() && matches!(raw, "the" | "a" | "an") {
+                continue;
+            }
             let exact = raw.starts_with('=') && raw.len() > 1;
             for word in spelling::words_of(raw.strip_prefix('=').filter(|_| exact).unwrap_or(raw)) {
                 let stem = stem(&word);

@@ -14,9 +14,9 @@ mod text;
 use std::collections::BTreeSet;
 
 use crate::rubric::Rubric;
-use lexicon::lexicon;
+use lexicon::{MATERIAL, QUANTITY, lexicon};
 use parse::{Reading, Setting};
-use phrase::{Hit, PERHAPS, Phrase, STATED};
+use phrase::{Ears, Hit, PERHAPS, Phrase, STATED};
 use text::Token;
 
 /// Changes whenever the same answer may get another verdict; kept in every log.
@@ -103,6 +103,8 @@ pub struct Judge {
     rubric: Rubric,
     criteria: Vec<Criterion>,
     setting: Setting,
+    /// Quantities that the question asks about.
+    understood: u128,
     /// Words of the question, five at a time.
     echo: BTreeSet<Vec<String>>,
 }
@@ -151,10 +153,16 @@ impl Judge {
             against: read(&m.against),
             unless: m.unless.clone(),
         });
+        let understood = setting.order[QUANTITY]
+            .iter()
+            .chain(setting.order[MATERIAL].first())
+            .filter(|&&id| id < 128)
+            .fold(0, |bits, &id| bits | 1 << id);
         Judge {
             rubric: rubric.clone(),
             criteria: expectations.chain(misconceptions).collect(),
             setting: setting.clone(),
+            understood,
             echo,
         }
     }
@@ -173,7 +181,7 @@ impl Judge {
             if criterion.unless.iter().any(|id| judgement.met.contains(id)) {
                 continue;
             }
-            let (list, hit) = match criterion.find(&reading) {
+            let (list, hit) = match criterion.find(&reading, self.understood) {
                 Finding::Stated(hit) if criterion.is_misconception => {
                     (&mut judgement.misconceptions, hit)
                 }
@@ -240,7 +248,20 @@ impl Judge {
         mute
     }
 
-    /// How each phrase of the rubric was understood, and how an answer was: for authors.
+    /// How each phrase of the rubric was understood.
+    pub fn phrases(&self) -> Vec<(String, String, String)> {
+        let all = |criterion: &Criterion| {
+            let id = criterion.id.clone();
+            criterion
+                .phrases
+                .iter()
+                .map(move |phrase| (id.clone(), phrase.text.clone(), phrase.explain(lexicon())))
+                .collect::<Vec<_>>()
+        };
+        self.criteria.iter().flat_map(all).collect()
+    }
+
+    /// How an answer was understood, and which phrases it says: for authors.
     pub fn explain(&self, answer: &str) -> String {
         let lexicon = lexicon();
         let reading = self.read(answer);
@@ -267,24 +288,24 @@ impl Judge {
             out.push('\n');
         }
         for criterion in &self.criteria {
+            let ears = Ears {
+                strict: criterion.is_misconception,
+                understood: self.understood,
+            };
             for phrase in &criterion.phrases {
-                let hit = phrase.said(lexicon, &reading);
+                let hit = phrase.said(lexicon, &reading, ears);
                 if hit.score > 0.0 {
+                    let gainsaid = if phrase.gainsaid(lexicon, &reading) {
+                        " GAINSAID"
+                    } else {
+                        ""
+                    };
                     out.push_str(&format!(
-                        "  {}: {:.2} \"{}\" = {}\n",
+                        "  {}: {:.2}{gainsaid} \"{}\" = {}\n",
                         criterion.id,
                         hit.score,
                         phrase.text,
                         phrase.explain(lexicon)
-                    ));
-                }
-            }
-            for phrase in &criterion.phrases {
-                let hit = phrase.gainsaid(lexicon, &reading);
-                if hit.score > 0.0 {
-                    out.push_str(&format!(
-                        "  {} GAINSAID {:.2} \"{}\"\n",
-                        criterion.id, hit.score, phrase.text
                     ));
                 }
             }
@@ -294,30 +315,34 @@ impl Judge {
 }
 
 impl Criterion {
-    fn find(&self, reading: &Reading) -> Finding {
+    fn find(&self, reading: &Reading, understood: u128) -> Finding {
         let lexicon = lexicon();
-        let best = |hits: &mut dyn Iterator<Item = Hit>| {
-            hits.fold(Hit::default(), |best, hit| {
-                if hit.score > best.score { hit } else { best }
-            })
+        let ears = Ears {
+            strict: self.is_misconception,
+            understood,
         };
-        let said = best(&mut self.phrases.iter().map(|p| p.said(lexicon, reading)));
-        if said.score < PERHAPS {
-            return Finding::Absent;
+        let mut best = Hit::default();
+        for phrase in &self.phrases {
+            let mut hit = phrase.said(lexicon, reading, ears);
+            if hit.score > best.score && !self.is_misconception && phrase.gainsaid(lexicon, reading)
+            {
+                // Said and gainsaid: which of the two stands is not for a machine to guess.
+                hit.score = hit.score.min(0.6);
+            }
+            if hit.score > best.score {
+                best = hit;
+            }
         }
-        let against = best(&mut self.against.iter().map(|p| p.said(lexicon, reading)));
-        let contrary = if self.is_misconception {
-            Hit::default()
-        } else {
-            best(&mut self.phrases.iter().map(|p| p.gainsaid(lexicon, reading)))
-        };
-        if against.score >= STATED || (said.score < STATED && contrary.score >= STATED) {
-            return Finding::Absent;
-        }
-        if said.score >= STATED && contrary.score < 0.85 {
-            Finding::Stated(said)
-        } else {
-            Finding::Perhaps(said)
+        let against = self
+            .against
+            .iter()
+            .map(|p| p.said(lexicon, reading, ears).score)
+            .fold(0.0, f64::max);
+        match best.score {
+            _ if against >= STATED => Finding::Absent,
+            score if score >= STATED => Finding::Stated(best),
+            score if score >= PERHAPS => Finding::Perhaps(best),
+            _ => Finding::Absent,
         }
     }
 }

@@ -5,7 +5,7 @@
 //! spoken of. All passes run over the tokens a bounded number of times.
 
 use super::grammar;
-use super::lexicon::{CLASSES, Form, Id, Lexicon, MATERIAL, PLACE, QUANTITY, Role, SURFACE};
+use super::lexicon::{CAUSE, CLASSES, Form, Id, Lexicon, MATERIAL, PLACE, QUANTITY, Role, SURFACE};
 use super::spelling::is_preposition;
 use super::text::{Kind, Token};
 
@@ -45,6 +45,8 @@ pub struct Statement {
     pub void: bool,
     /// Whether it follows from a comparison ("brighter than the centre").
     pub compared: bool,
+    /// Whether it says what ought to be ("while it should really fall off").
+    pub ideal: bool,
     /// What it is about.
     pub about: [Option<About>; CLASSES],
     /// Its clause.
@@ -79,6 +81,8 @@ pub struct Reading {
     pub denied: Vec<bool>,
     /// For each token, whether a concept was heard in it.
     pub heard: Vec<bool>,
+    /// Places that are the whole object, or wherever the highlight is.
+    pub generic: Vec<Id>,
     /// For each clause, the statements of it (a range, as they come in order).
     pub of_clause: Vec<(usize, usize)>,
 }
@@ -103,6 +107,7 @@ pub fn read(lexicon: &Lexicon, tokens: Vec<Token>, setting: &Setting, mute: &[bo
     let mut matches = find(lexicon, &tokens, &forms);
     let (clause, sentence) = clauses(lexicon, &tokens, &matches);
     let denied = denials(lexicon, &tokens, &matches, &clause, &sentence);
+    suppose(lexicon, &tokens, &mut matches, &sentence, setting);
     resolve_ordinals(lexicon, &tokens, &mut matches, setting);
     let mut heard = vec![false; tokens.len()];
     for found in &matches {
@@ -115,6 +120,10 @@ pub fn read(lexicon: &Lexicon, tokens: Vec<Token>, setting: &Setting, mute: &[bo
         sentence,
         denied,
         heard,
+        generic: ["whole", "highlight"]
+            .into_iter()
+            .filter_map(|name| lexicon.id(name))
+            .collect(),
         ..Reading::default()
     };
     reading.attach(lexicon, &matches);
@@ -296,6 +305,41 @@ fn less(lexicon: &Lexicon, tokens: &[Token], matches: &[Match], denied: &mut [bo
     }
 }
 
+/// "If the light were weak, ...": what an artist might have done, where the question names him.
+fn suppose(
+    lexicon: &Lexicon,
+    tokens: &[Token],
+    matches: &mut Vec<Match>,
+    sentence: &[usize],
+    setting: &Setting,
+) {
+    let Some(artist) = lexicon
+        .id("artist")
+        .filter(|id| setting.order[CAUSE].contains(id))
+    else {
+        return;
+    };
+    let ids = [lexicon.id("light"), lexicon.id("basecolour")];
+    let mut found = Vec::new();
+    for at in (0..tokens.len()).filter(|&at| tokens[at].is("if") || tokens[at].is("were")) {
+        let first = matches.partition_point(|m| m.start < at);
+        let names = matches[first..].iter().take(4).any(|m| {
+            sentence[m.start] == sentence[at]
+                && m.start < at + 8
+                && m.concepts.iter().any(|&id| ids.contains(&Some(id)))
+        });
+        if names {
+            found.push(Match {
+                start: at,
+                end: at + 1,
+                concepts: vec![artist],
+            });
+        }
+    }
+    matches.extend(found);
+    matches.sort_by_key(|m| m.start);
+}
+
 /// "the first", "the other": which of two.
 fn resolve_ordinals(
     lexicon: &Lexicon,
@@ -338,7 +382,15 @@ fn resolve_ordinals(
         let after_article = at > 0 && matches!(tokens[at - 1].word.as_str(), "the" | "in" | "one");
         let names_one = matches!(
             follows,
-            "one"
+            "is" | "has"
+                | "gives"
+                | "shows"
+                | "looks"
+                | "are"
+                | "will"
+                | "would"
+                | "should"
+                | "one"
                 | "ball"
                 | "case"
                 | "photo"
@@ -365,12 +417,7 @@ fn resolve_ordinals(
             {
                 order.get(1).copied()
             }
-            "other"
-                if after_article
-                    && (names_one
-                        || !is_word(tokens.get(at + 1))
-                        || grammar::is_copula(follows)) =>
-            {
+            "other" if names_one || (after_article && grammar::is_copula(follows)) => {
                 let topic = last.or_else(|| order.first().copied());
                 setting.order[class]
                     .iter()
@@ -428,6 +475,7 @@ impl Reading {
         }) {
             is_state[found.start..found.end].fill(true);
         }
+        let ideal = self.ideals();
         let mut cursor = [0usize; CLASSES];
         for found in matches {
             let mut about: [Option<About>; CLASSES] = Default::default();
@@ -449,6 +497,7 @@ impl Reading {
                 denied: self.denied[found.start],
                 void: false,
                 compared: false,
+                ideal: ideal[clause],
                 about,
                 clause,
                 sentence,
@@ -514,7 +563,8 @@ impl Reading {
         }
         let after = list.get(next).filter(|m| m.start >= found.end);
         let before = self.before(list, next, clause, found.start);
-        let local = |m: &Mention| Some(self.with_partner(list, m, Held::Local));
+        let local =
+            |m: &Mention| Some(self.with_partner(list, self.specific(list, m), Held::Local));
         let after_here = after.filter(|m| self.clause[m.start] == clause);
         if let Some(prev) = before.filter(|m| self.clause[m.start] == clause) {
             let gap = prev.end..found.start;
@@ -578,12 +628,44 @@ impl Reading {
             return None;
         }
         let prev = before?;
+        // What an artist might have done ends where the contrast begins.
+        let contrast = |t: &Token| {
+            matches!(
+                t.word.as_str(),
+                "but" | "whereas" | "while" | "however" | ";" | "--"
+            )
+        };
+        if prev.class == CAUSE
+            && self.tokens[prev.end..found.start]
+                .iter()
+                .rev()
+                .take(40)
+                .any(contrast)
+        {
+            return None;
+        }
         let held = if self.sentence[prev.start] == self.sentence[found.start] {
             Held::Inherited
         } else {
             Held::Remembered
         };
-        Some(self.with_partner(list, prev, held))
+        Some(self.with_partner(list, self.specific(list, prev), held))
+    }
+
+    /// "At the edge the reflection ...": the place named first is the one meant.
+    fn specific<'a>(&self, list: &'a [Mention], m: &'a Mention) -> &'a Mention {
+        if m.class != PLACE || !self.generic.contains(&m.concept) {
+            return m;
+        }
+        let index = list.partition_point(|other| other.start < m.start);
+        let Some(earlier) = index.checked_sub(1).and_then(|i| list.get(i)) else {
+            return m;
+        };
+        let leads = (earlier.start.saturating_sub(3)..earlier.start)
+            .any(|i| is_preposition(&self.tokens[i].word));
+        let same = self.clause[earlier.start] == self.clause[m.start]
+            && !self.generic.contains(&earlier.concept);
+        if same && leads { earlier } else { m }
     }
 
     /// The last mention before, leaving out what stands behind "than".
@@ -650,8 +732,104 @@ impl Reading {
                 .is_some_and(|range| range.iter().any(|&m| m));
             statement.void = muted || asked[statement.sentence] || listed[statement.sentence];
         }
+        // "a quarter as bright as it should be" does not say bright.
+        for statement in &mut self.statements {
+            let (start, end) = statement.tokens;
+            let measured = start > 0
+                && self.tokens[start - 1].is("as")
+                && self.tokens.get(end).is_some_and(|t| t.is("as"));
+            statement.void |= measured;
+        }
         self.take_back(lexicon);
         self.dismiss();
+        self.complete(lexicon);
+    }
+
+    /// "The edges get too dark, and the centre too": says the same of the centre.
+    fn complete(&mut self, lexicon: &Lexicon) {
+        let is_state = |s: &Statement| {
+            s.concepts
+                .iter()
+                .any(|&id| lexicon.concept(id).role == Role::State)
+        };
+        let mut added: Vec<Statement> = Vec::new();
+        for (index, entity) in self.statements.iter().enumerate() {
+            let Some(class) =
+                entity
+                    .concepts
+                    .iter()
+                    .find_map(|&id| match lexicon.concept(id).role {
+                        Role::Entity(class) if class == PLACE || class == SURFACE => Some(class),
+                        _ => None,
+                    })
+            else {
+                continue;
+            };
+            let (start, end) = entity.tokens;
+            let after = self
+                .tokens
+                .get(end)
+                .map(|t| t.word.as_str())
+                .unwrap_or_default();
+            let ends = self
+                .tokens
+                .get(end + 1)
+                .is_none_or(|t| t.kind != Kind::Word && t.kind != Kind::Value);
+            let trails = matches!(after, "too" | "also" | "likewise") && ends
+                || after == "as" && self.tokens.get(end + 1).is_some_and(|t| t.is("well"));
+            let leads = (start.saturating_sub(4)..start).any(|i| {
+                matches!(self.tokens[i].word.as_str(), "as" | "so")
+                    && self.tokens.get(i + 1).is_some_and(|t| {
+                        matches!(
+                            t.word.as_str(),
+                            "will" | "is" | "does" | "do" | "are" | "would"
+                        )
+                    })
+            });
+            if !(trails || leads) {
+                continue;
+            }
+            let about = entity.about[class].clone();
+            let earlier = self.statements[..index]
+                .iter()
+                .rev()
+                .take_while(|s| s.sentence + 1 >= entity.sentence)
+                .take(8);
+            if let Some(said) = earlier
+                .filter(|s| is_state(s))
+                .find(|s| s.tokens.1 <= start)
+            {
+                let mut copy = said.clone();
+                copy.about[class] = about;
+                added.push(copy);
+            }
+        }
+        self.statements.extend(added);
+        self.statements.sort_by_key(|s| (s.tokens.0, s.tokens.1));
+    }
+
+    /// For each clause, whether it says what ought to be rather than what is.
+    fn ideals(&self) -> Vec<bool> {
+        let mut ideal = vec![false; self.clause.last().map_or(0, |last| last + 1)];
+        let mut contrasts = false;
+        for (at, token) in self.tokens.iter().enumerate() {
+            if at == 0 || self.clause[at] != self.clause[at - 1] {
+                contrasts = matches!(
+                    token.word.as_str(),
+                    "while" | "whereas" | "although" | "though" | "where" | "when" | "but"
+                );
+            }
+            let ought = matches!(token.word.as_str(), "should" | "ought" | "supposed");
+            let really = self.tokens.get(at + 1).is_some_and(|next| {
+                matches!(
+                    next.word.as_str(),
+                    "really" | "actually" | "normally" | "rather" | "in"
+                )
+            });
+            let reference = matches!(token.word.as_str(), "normally" | "usually" | "ordinarily");
+            ideal[self.clause[at]] |= (ought && (contrasts || really)) || reference;
+        }
+        ideal
     }
 
     fn sentences(&self) -> usize {
@@ -668,7 +846,14 @@ impl Reading {
                 first = false;
             }
             if token.ends_sentence() {
-                asked[self.sentence[at]] = token.kind == Kind::Question && asks;
+                // "Double division? Not at all."
+                let refused = self.tokens.get(at + 1).is_some_and(|next| {
+                    matches!(
+                        next.word.as_str(),
+                        "no" | "not" | "nope" | "never" | "nah" | "hardly"
+                    )
+                });
+                asked[self.sentence[at]] = token.kind == Kind::Question && (asks || refused);
                 first = true;
                 asks = false;
             }
@@ -769,7 +954,15 @@ pub fn conflicts(lexicon: &Lexicon, a: &Statement, b: &Statement) -> bool {
     let same_topic = (0..CLASSES)
         .filter(|&class| class != QUANTITY)
         .all(|class| match (&a.about[class], &b.about[class]) {
-            (Some(x), Some(y)) => x.concepts.iter().any(|id| y.concepts.contains(id)),
+            (Some(x), Some(y)) => {
+                let generic = |about: &About| {
+                    about.concepts.iter().all(|&id| {
+                        matches!(lexicon.concept(id).name.as_str(), "whole" | "highlight")
+                    })
+                };
+                x.concepts.iter().any(|id| y.concepts.contains(id))
+                    || (class == PLACE && (generic(x) || generic(y)))
+            }
             _ => true,
         });
     let values = ["singular", "zero", "one", "oneoverpi"];

@@ -1,5 +1,7 @@
 //! An author's phrases, read as the answers are, and how well an answer says one.
 
+use std::collections::BTreeMap;
+
 use super::grammar;
 use super::lexicon::{CAUSE, CLASSES, Form, Id, Lexicon, MATERIAL, PLACE, QUANTITY, Role, SURFACE};
 use super::parse::{self, Held, Reading, Setting, Statement};
@@ -10,6 +12,26 @@ use super::text::{self, Kind, Token};
 pub const STATED: f64 = 0.75;
 /// From here on the judge cannot tell.
 pub const PERHAPS: f64 = 0.5;
+
+/// From here on the contrary is stated.
+const GAINSAID: f64 = 0.93;
+
+/// How to listen.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Ears {
+    /// Whether what goes unnamed counts against a statement, as where a mistake is laid to
+    /// somebody's charge.
+    pub strict: bool,
+    /// Quantities that the question itself asks about, which may go unnamed: a bit each.
+    pub understood: u128,
+}
+
+impl Ears {
+    fn understands(self, ids: &[Id]) -> bool {
+        ids.iter()
+            .any(|&id| id < 128 && self.understood & (1 << id) != 0)
+    }
+}
 
 /// One proposition of a phrase.
 #[derive(Clone, Debug, Default)]
@@ -33,6 +55,8 @@ pub struct Phrase {
     pub text: String,
     /// Its propositions.
     pub atoms: Vec<Atom>,
+    /// Whether they make one clause, so that an answer must say them together.
+    together: bool,
 }
 
 /// How well an answer says something, and where.
@@ -108,34 +132,68 @@ impl Phrase {
         Phrase {
             text: text.to_owned(),
             atoms,
+            together: single,
         }
     }
 
     /// How well a reading says the phrase: as well as it says its weakest part.
-    pub fn said(&self, lexicon: &Lexicon, reading: &Reading) -> Hit {
-        let mut whole = Hit {
-            score: if self.atoms.is_empty() { 0.0 } else { 1.0 },
-            range: (usize::MAX, 0),
+    pub fn said(&self, lexicon: &Lexicon, reading: &Reading, ears: Ears) -> Hit {
+        let Some(first) = self.atoms.first() else {
+            return Hit::default();
         };
-        for atom in &self.atoms {
-            let hit = atom.best(lexicon, reading, false);
-            whole.score = whole.score.min(hit.score);
-            whole.range = (
-                whole.range.0.min(hit.range.0),
-                whole.range.1.max(hit.range.1),
-            );
-            if whole.score < PERHAPS {
+        let mut hits: BTreeMap<usize, Hit> = first.hits(lexicon, reading, ears, false);
+        for atom in &self.atoms[1..] {
+            if hits.is_empty() {
                 return Hit::default();
             }
+            let others = atom.hits(lexicon, reading, ears, false);
+            let best = highest(others.values());
+            for (&sentence, hit) in &mut hits {
+                // Parts of one clause belong together; two clauses may stand far apart.
+                let near = [
+                    (sentence.wrapping_sub(1), 0.9),
+                    (sentence, 1.0),
+                    (sentence + 1, 0.9),
+                ]
+                .into_iter()
+                .filter_map(|(at, weight)| {
+                    others.get(&at).map(|other| (other.score * weight, other))
+                })
+                .max_by(|a, b| a.0.total_cmp(&b.0));
+                let other = if self.together {
+                    near
+                } else {
+                    best.as_ref().map(|hit| (hit.score, hit))
+                };
+                match other {
+                    Some((score, other)) => {
+                        hit.score = hit.score.min(score);
+                        hit.range = (
+                            hit.range.0.min(other.range.0),
+                            hit.range.1.max(other.range.1),
+                        );
+                    }
+                    None => hit.score = 0.0,
+                }
+            }
         }
-        whole
+        highest(hits.values())
+            .filter(|hit| hit.score >= PERHAPS)
+            .unwrap_or_default()
     }
 
-    /// How well a reading says the contrary; only a single proposition has one.
-    pub fn gainsaid(&self, lexicon: &Lexicon, reading: &Reading) -> Hit {
+    /// Whether a reading says the contrary; only a single proposition has one.
+    pub fn gainsaid(&self, lexicon: &Lexicon, reading: &Reading) -> bool {
         match self.atoms.as_slice() {
-            [atom] => atom.best(lexicon, reading, true),
-            _ => Hit::default(),
+            [atom] => {
+                let ears = Ears {
+                    strict: true,
+                    ..Ears::default()
+                };
+                highest(atom.hits(lexicon, reading, ears, true).values())
+                    .is_some_and(|hit| hit.score >= GAINSAID)
+            }
+            _ => false,
         }
     }
 
@@ -179,6 +237,28 @@ fn keep(lexicon: &Lexicon, ids: &[Id], role: Option<Role>) -> Vec<Id> {
         .collect()
 }
 
+/// How well a word's senses meet those of a phrase. The first sense of a word is the one
+/// meant; two words that meet only in their further senses do not mean the same.
+fn senses(wanted: &[Id], said: &[Id], as_said: impl Fn(Id) -> Option<Id>) -> f64 {
+    let mut best: f64 = 0.0;
+    for (i, &id) in said.iter().enumerate() {
+        let Some(id) = as_said(id) else { continue };
+        for (j, &sought) in wanted
+            .iter()
+            .enumerate()
+            .filter(|&(_, &sought)| sought == id)
+        {
+            debug_assert_eq!(sought, id);
+            best = best.max(match (i, j) {
+                (0, 0) => 1.0,
+                (_, 0) => 0.95,
+                _ => 0.45,
+            });
+        }
+    }
+    best
+}
+
 /// The words of a phrase that only themselves can say.
 fn literal(reading: &Reading, clause: Option<usize>) -> Vec<String> {
     let mut out: Vec<String> = Vec::new();
@@ -187,6 +267,8 @@ fn literal(reading: &Reading, clause: Option<usize>) -> Vec<String> {
             && !reading.heard[at]
             && token.word.len() > 2
             && !grammar::is_known(&token.word)
+            && !grammar::is_known(&reading.forms[at].stem)
+            && !grammar::is_known(token.word.trim_end_matches('s'))
             && clause.is_none_or(|c| reading.clause[at] == c);
         let stem = &reading.forms[at].stem;
         if counts && !out.contains(stem) {
@@ -197,11 +279,18 @@ fn literal(reading: &Reading, clause: Option<usize>) -> Vec<String> {
 }
 
 impl Atom {
-    fn best(&self, lexicon: &Lexicon, reading: &Reading, contrary: bool) -> Hit {
-        let mut best = Hit::default();
+    /// The best hit in each sentence.
+    fn hits(
+        &self,
+        lexicon: &Lexicon,
+        reading: &Reading,
+        ears: Ears,
+        contrary: bool,
+    ) -> BTreeMap<usize, Hit> {
+        let mut hits = BTreeMap::new();
         if self.anchor.is_empty() {
             return if contrary {
-                best
+                hits
             } else {
                 self.by_words(reading)
             };
@@ -211,29 +300,27 @@ impl Atom {
             if score < PERHAPS {
                 continue;
             }
-            score *= self.topic(lexicon, statement);
+            score *= self.topic(lexicon, statement, ears);
             if score < PERHAPS {
                 continue;
             }
             score *= self.company(reading, statement);
+            let best: &mut Hit = hits.entry(statement.sentence).or_default();
             if score > best.score + 1e-9 {
-                best = Hit {
+                *best = Hit {
                     score,
                     range: quote(reading, statement),
                 };
             }
         }
-        best
+        hits
     }
 
     /// Does the statement say it (or, if asked, the contrary), and how clearly?
     fn polarity(&self, lexicon: &Lexicon, statement: &Statement, contrary: bool) -> f64 {
-        let says = statement.concepts.iter().any(|id| self.anchor.contains(id));
-        let opposite = statement.concepts.iter().any(|&id| {
-            lexicon
-                .concept(id)
-                .antonym
-                .is_some_and(|a| self.anchor.contains(&a))
+        let says = senses(&self.anchor, &statement.concepts, Some);
+        let opposite = senses(&self.anchor, &statement.concepts, |id| {
+            lexicon.concept(id).antonym
         });
         let binary = statement
             .concepts
@@ -241,34 +328,65 @@ impl Atom {
             .any(|&id| lexicon.concept(id).binary);
         let sure = if statement.compared { 0.8 } else { 1.0 };
         let denied = statement.denied != self.denied;
-        match (says, opposite, denied, contrary) {
-            (true, _, false, false) => sure,
-            (true, _, true, true) => sure,
-            (false, true, true, false) if binary => sure,
-            (false, true, true, false) => 0.6,
-            (false, true, false, true) => sure,
-            _ => 0.0,
+        match (denied, contrary) {
+            (false, false) | (true, true) => says * sure,
+            (true, false) if says > 0.0 => 0.0,
+            (true, false) => opposite * if binary { sure } else { 0.6 },
+            (false, true) if says > 0.0 => 0.0,
+            (false, true) => opposite * sure,
         }
     }
 
     /// Is the statement about what the phrase is about?
-    fn topic(&self, lexicon: &Lexicon, statement: &Statement) -> f64 {
-        let mut score: f64 = 1.0;
+    fn topic(&self, lexicon: &Lexicon, statement: &Statement, ears: Ears) -> f64 {
+        let mut score: f64 = if statement.ideal && self.about[QUANTITY].is_empty() {
+            0.4
+        } else {
+            1.0
+        };
         for class in 0..CLASSES {
             let wanted = &self.about[class];
+            let is =
+                |ids: &[Id], name: &str| ids.iter().any(|&id| lexicon.concept(id).name == name);
+            let about = statement.about[class].as_ref();
             if wanted.is_empty() {
+                // What an artist might have done is not what the picture shows.
+                if class == CAUSE
+                    && about.is_some_and(|a| a.held >= Held::Inherited && is(&a.concepts, "artist"))
+                {
+                    score *= 0.45;
+                }
+                if class == QUANTITY
+                    && about.is_some_and(|a| a.held == Held::Local)
+                    && self.is_value(lexicon)
+                {
+                    let given = about.is_some_and(|a| {
+                        a.concepts
+                            .iter()
+                            .all(|&id| is_given(&lexicon.concept(id).name))
+                    });
+                    score *= if given { 0.0 } else { 1.0 };
+                }
                 continue;
             }
-            let generic = class == PLACE
-                && wanted
-                    .iter()
-                    .any(|&id| matches!(lexicon.concept(id).name.as_str(), "whole" | "highlight"));
-            score *= match &statement.about[class] {
+            let generic = class == PLACE && (is(wanted, "whole") || is(wanted, "highlight"));
+            score *= match about {
                 None if generic => 0.9,
                 None => match class {
                     PLACE => 0.55,
-                    SURFACE | MATERIAL | CAUSE => 0.8,
-                    _ => 0.9,
+                    SURFACE if ears.strict => 0.6,
+                    SURFACE if ears.strict => 0.45,
+                    SURFACE | CAUSE => 0.8,
+                    QUANTITY
+                        if self.is_value(lexicon)
+                            && wanted.iter().all(|&id| is_given(&lexicon.concept(id).name)) =>
+                    {
+                        0.45
+                    }
+                    QUANTITY if is_highlight(lexicon, statement) => 0.45,
+                    _ if ears.understands(wanted) => 0.9,
+                    MATERIAL => 0.6,
+                    _ => 0.5,
                 },
                 Some(about) if about.concepts.iter().any(|id| wanted.contains(id)) => {
                     match about.held {
@@ -279,9 +397,20 @@ impl Atom {
                 }
                 Some(about)
                     if class == PLACE
-                        && about.concepts.iter().any(|&id| {
-                            matches!(lexicon.concept(id).name.as_str(), "whole" | "highlight")
-                        }) =>
+                        && is(wanted, "centre")
+                        && is(&about.concepts, "highlight") =>
+                {
+                    0.6
+                }
+                Some(about)
+                    if class == PLACE && is(wanted, "centre") && is(&about.concepts, "whole") =>
+                {
+                    0.5
+                }
+                Some(about)
+                    if class == PLACE
+                        && is(wanted, "whole")
+                        && is(&about.concepts, "highlight") =>
                 {
                     0.5
                 }
@@ -290,6 +419,16 @@ impl Atom {
             };
         }
         score
+    }
+
+    /// Whether the phrase says which value something has.
+    fn is_value(&self, lexicon: &Lexicon) -> bool {
+        self.anchor.iter().any(|&id| {
+            matches!(
+                lexicon.concept(id).name.as_str(),
+                "zero" | "one" | "quarter" | "rise" | "fall" | "small" | "big"
+            )
+        })
     }
 
     /// Are the other things of the phrase named beside it?
@@ -325,24 +464,32 @@ impl Atom {
     }
 
     /// Words that the lexicon does not know: they must stand in one sentence, not denied.
-    fn by_words(&self, reading: &Reading) -> Hit {
-        let mut best = Hit::default();
+    fn by_words(&self, reading: &Reading) -> BTreeMap<usize, Hit> {
+        let mut hits = BTreeMap::new();
         let mut start = 0;
         while start < reading.tokens.len() {
             let (_, end) = sentence_around(reading, start);
             let score = share(&self.words, &reading.forms[start..end]);
             let denied = (start..end)
                 .any(|i| reading.denied[i] && self.words.contains(&reading.forms[i].stem));
-            if score > best.score && denied == self.denied {
-                best = Hit {
-                    score,
-                    range: (reading.tokens[start].start, reading.tokens[end - 1].end),
-                };
+            if score >= PERHAPS && denied == self.denied {
+                let range = (reading.tokens[start].start, reading.tokens[end - 1].end);
+                hits.insert(reading.sentence[start], Hit { score, range });
             }
             start = end.max(start + 1);
         }
-        best
+        hits
     }
+}
+
+fn highest<'a>(hits: impl Iterator<Item = &'a Hit>) -> Option<Hit> {
+    hits.fold(None, |best: Option<Hit>, hit| {
+        if best.as_ref().is_none_or(|best| hit.score > best.score) {
+            Some(hit.clone())
+        } else {
+            best
+        }
+    })
 }
 
 fn share(words: &[String], forms: &[Form]) -> f64 {
@@ -351,6 +498,25 @@ fn share(words: &[String], forms: &[Form]) -> f64 {
         .filter(|word| forms.iter().any(|form| form.stem == **word))
         .count();
     present as f64 / words.len() as f64
+}
+
+/// Whether a statement is about the spot that one sees, not about a quantity behind it.
+fn is_highlight(lexicon: &Lexicon, statement: &Statement) -> bool {
+    statement.about[PLACE].as_ref().is_some_and(|about| {
+        about.held >= Held::Inherited
+            && about
+                .concepts
+                .iter()
+                .any(|&id| lexicon.concept(id).name == "highlight")
+    })
+}
+
+/// Quantities that are put in, not what comes out.
+fn is_given(name: &str) -> bool {
+    matches!(
+        name,
+        "alpha" | "top" | "bottom" | "ndoth" | "ndotl" | "ndotv" | "vdoth" | "product"
+    )
 }
 
 /// The tokens of the sentence around a token, at most 200 to either side.

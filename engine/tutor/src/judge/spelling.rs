@@ -48,6 +48,11 @@ fn expanded(word: &str) -> Option<&'static [&'static str]> {
 
 /// The words that a word of the lexicon stands for, so that both sides meet.
 pub fn words_of(word: &str) -> Vec<String> {
+    match word {
+        "zero" => return vec!["#0".to_owned()],
+        "unity" => return vec!["#1".to_owned()],
+        _ => {}
+    }
     match expanded(word) {
         Some(words) if !words.is_empty() && word != "r" && word != "w" => {
             words.iter().map(|w| (*w).to_owned()).collect()

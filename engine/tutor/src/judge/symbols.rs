@@ -73,7 +73,7 @@ fn number_words(mut tokens: Vec<Token>) -> Vec<Token> {
             .map(|i| tokens[i].word.clone())
             .unwrap_or_default();
         let number = match tokens[at].word.as_str() {
-            "zero" => "0",
+            "zero" | "nought" | "naught" | "nil" | "null" => "0",
             "unity" => "1",
             "one" if is(&tokens, at + 1, &["over", "divided"]) => "1",
             "one"
@@ -277,9 +277,10 @@ fn shape(tokens: &[Token], at: usize) -> Found {
             };
         }
     }
-    if is(tokens, next, &["1", "g2", "g"]) && is(tokens, next + 1, &["/", "over"]) {
+    let divided = is(tokens, next + 1, &["divided"]) && is(tokens, next + 2, &["by"]);
+    if is(tokens, next, &["1", "g2", "g"]) && (divided || is(tokens, next + 1, &["/", "over"])) {
         let one = is(tokens, next, &["1"]);
-        next += 2;
+        next += 2 + usize::from(divided);
         let open = is(tokens, next, &["("]);
         next += usize::from(open);
         if is(tokens, next, &["#4nlnv", "#nlnv"]) {
@@ -316,14 +317,15 @@ fn shape(tokens: &[Token], at: usize) -> Found {
         }
         return None;
     }
-    if is(tokens, at, &["n", "ior", "eta", "1", "n1", "n2"])
-        && is(tokens, at + 1, &["-"])
-        && is(tokens, at + 2, &["n", "ior", "eta", "1", "n1", "n2"])
-    {
-        // The sum follows within a few tokens: ") / ( n + 1".
-        let sum = (at + 3..at + 8).find(|&i| {
-            is(tokens, i, &["+"]) && is(tokens, i + 1, &["n", "ior", "eta", "1", "n1", "n2"])
-        })?;
+    let index =
+        |i: usize| is(tokens, i, &["n", "ior", "eta", "n1", "n2"]) || number(tokens, i).is_some();
+    if index(at) && is(tokens, at + 1, &["-"]) && index(at + 2) {
+        // The sum follows within a few tokens, behind a division: ") / ( n + 1".
+        let sum =
+            (at + 3..at + 9).find(|&i| is(tokens, i, &["+"]) && index(i - 1) && index(i + 1))?;
+        if !(at + 3..sum).any(|i| is(tokens, i, &["/", "over"])) {
+            return None;
+        }
         let mut end = sum + 2;
         while is(tokens, end, &[")"]) && end < sum + 5 {
             end += 1;
@@ -477,6 +479,15 @@ fn value(tokens: &[Token], at: usize) -> Found {
         let (result, end) = sum(tokens, at + 1, 0)?;
         return found(end - at, name(result));
     }
+    // `f(1)`: an argument.
+    let call = token.is("(")
+        && !token.spaced
+        && at > 0
+        && tokens[at - 1].kind == Kind::Word
+        && !tokens[at - 1].is("pi");
+    if call {
+        return None;
+    }
     let numeric = number(tokens, at).is_some()
         || ((token.is("(") || token.is("pi")) && starts_number(tokens, at));
     if !numeric {
@@ -494,16 +505,16 @@ fn value(tokens: &[Token], at: usize) -> Found {
         return found(
             end + 1 - at,
             if result == 90.0 {
-                "#90 degrees"
+                "#90deg"
             } else if result == 0.0 {
-                "#0 degrees"
+                "#0deg"
             } else {
                 "#num"
             },
         );
     }
     if (result - std::f64::consts::FRAC_PI_2).abs() < 1e-3 {
-        return found(end - at, "#90 degrees");
+        return found(end - at, "#90deg");
     }
     let times = is(tokens, end, &["x"])
         || (is(tokens, end, &["*"])
@@ -518,10 +529,22 @@ fn value(tokens: &[Token], at: usize) -> Found {
         ));
     }
     let part = |i: usize| is(tokens, i, &["+", "-", "/", "*", "^"]);
-    if part(end) || (operand_before && part(at.wrapping_sub(1))) || (at > 0 && part(at - 1)) {
+    // `D(1)`: an argument, not a value.
+    let argument = at > 1
+        && tokens[at - 1].is("(")
+        && !tokens[at - 1].spaced
+        && tokens[at - 2].kind == Kind::Word
+        && is(tokens, end, &[")"]);
+    if argument
+        || part(end)
+        || (operand_before && part(at.wrapping_sub(1)))
+        || (at > 0 && part(at - 1))
+    {
         return found(end - at, "#num");
     }
-    found(end - at, name(result))
+    // Four per cent that were computed were computed from the index.
+    let computed = end - at > 3 && name(result) == "#0.04";
+    found(end - at, if computed { "#f0formula" } else { name(result) })
 }
 
 /// Does a bracket or a pi open arithmetic on numbers alone?

@@ -34,6 +34,18 @@ pub enum Value {
 }
 
 impl Filled {
+    /// The prose with its values put in.
+    pub fn markdown(&self) -> String {
+        let mut out = String::with_capacity(self.text.len());
+        for character in self.text.chars() {
+            match self.value(character) {
+                Some(Value::Text(value) | Value::Math(value)) => out.push_str(value),
+                None => out.push(character),
+            }
+        }
+        out
+    }
+
     /// What a character stands for, if it is a stand-in.
     pub fn value(&self, character: char) -> Option<&Value> {
         let index = u32::from(character).checked_sub(FIRST_STAND_IN)?;
@@ -164,18 +176,6 @@ fn trimmed(text: &str, span: Range<usize>) -> Range<usize> {
     start..(span.start + piece.trim_end().len()).max(start)
 }
 
-/// The expression of a template and where it starts in the prose; none for `formula` and
-/// `source`, and where it does not parse.
-#[allow(dead_code)]
-pub fn expression(text: &str, inner: Range<usize>) -> Option<(formula::Expr, usize)> {
-    let (body, _) = parts(text, inner);
-    if keyword(&text[body.clone()]).is_some() {
-        return None;
-    }
-    let expr = formula::parse(&text[body.clone()]).ok()?;
-    Some((expr, body.start))
-}
-
 /// `formula NAME` and `source ID`, with the offset of the name.
 fn keyword(body: &str) -> Option<(&str, &str, usize)> {
     let (word, rest) = body.split_once(char::is_whitespace)?;
@@ -282,7 +282,6 @@ fn printer(format: &str) -> Option<Print> {
 }
 
 /// Decimals typed outside of templates, such as `0.5`.
-#[allow(dead_code)]
 pub fn typed_numbers(text: &str) -> Vec<Range<usize>> {
     let mut found = Vec::new();
     for piece in pieces(text) {
