@@ -1,6 +1,6 @@
 //! What the learner types or arranges into, one widget for each kind of input.
 
-use ratatui_textarea::{CursorMove, TextArea, WrapMode};
+use ratatui_textarea::{CursorMove, Input as Edit, TextArea, WrapMode};
 use tutor::view::Input;
 
 use super::keys::Focus;
@@ -55,6 +55,14 @@ impl Field {
         match self {
             Self::Line(area) | Self::Editor(area) => Some(area.lines().join("\n")),
             _ => None,
+        }
+    }
+
+    /// Gives a key to a text field. True where its text changed.
+    pub fn edit(&mut self, key: Edit) -> bool {
+        match self {
+            Self::Line(area) | Self::Editor(area) => area.input(key),
+            _ => false,
         }
     }
 

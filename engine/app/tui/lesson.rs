@@ -147,12 +147,11 @@ impl LessonScreen {
             Action::Yes => return self.toggle(Some(true)),
             Action::No => return self.toggle(Some(false)),
             Action::Pick(index) => self.pick(index),
-            Action::Edit(edit) => match &mut self.field {
-                Field::Line(area) | Field::Editor(area) if area.input(edit) => {
+            Action::Edit(edit) => {
+                if self.field.edit(edit) {
                     self.typed = Some(Instant::now());
                 }
-                _ => {}
-            },
+            }
             Action::Paste(text) => {
                 if matches!(self.focus, Focus::Line | Focus::Editor) {
                     self.field.paste(&text);
