@@ -16,8 +16,8 @@ const MOST: u32 = 17;
 
 /// A number for people: `0.560`, `4.17`, `1.3e-7`, `∞`; never `-0`, minus as `−`.
 ///
-/// Rounding is that of the exact binary value, half to even. Very large and very small
-/// numbers get an exponent.
+/// Rounding is that of the exact binary value, half to even; digits before the decimal point
+/// are never rounded away. Very large and very small numbers get an exponent.
 pub fn format_number(value: f64, digits: Digits) -> String {
     if value.is_nan() {
         return "undefined".to_string();
@@ -54,14 +54,8 @@ fn significant(magnitude: f64, count: u32) -> String {
     if !(-5..15).contains(&exponent) {
         return scientific;
     }
+    // Whole digits are never rounded away: 12345 to three digits stays 12345.
     let decimals = (count as i32 - 1 - exponent).max(0) as usize;
-    if exponent >= count as i32 {
-        // 12345 to three digits is 12300: round first, then print without decimals.
-        return match scientific.parse::<f64>() {
-            Ok(rounded) => format!("{rounded:.0}"),
-            Err(_) => scientific,
-        };
-    }
     format!("{magnitude:.decimals$}")
 }
 
@@ -102,7 +96,8 @@ pub fn significant_digits(text: &str) -> Option<u32> {
 
 /// Does `value`, printed with as many digits as `shown` has, give `shown`?
 ///
-/// `shown` may carry a decimal comma, a minus of either kind, an exponent, and `∞`.
+/// `shown` may carry a decimal comma, a minus of either kind, an exponent, and `∞`. Exactly
+/// half-way both neighbours are right: 0.125 is 0.12 and 0.13.
 pub fn agrees_with_printed(value: f64, shown: &str) -> bool {
     let shown = shown.trim();
     let (negative, unsigned) = match shown.strip_prefix(['-', '−', '–']) {
@@ -116,42 +111,19 @@ pub fn agrees_with_printed(value: f64, shown: &str) -> bool {
     let Ok(printed) = plain.parse::<f64>() else {
         return false;
     };
-    if !value.is_finite() || significant_digits(&plain).is_none() {
+    if !value.is_finite() || !printed.is_finite() || significant_digits(&plain).is_none() {
         return false;
     }
     let printed = if negative { -printed } else { printed };
-    let again = match plain.split_once(['e', 'E']) {
-        Some((mantissa, _)) => {
-            let decimals = mantissa
-                .split_once('.')
-                .map_or(0, |(_, fraction)| fraction.len());
-            format!("{value:.*e}", decimals.min(40)).parse::<f64>()
-        }
-        None => {
-            let decimals = plain
-                .split_once('.')
-                .map_or(0, |(_, fraction)| fraction.len());
-            format!("{value:.*}", decimals.min(340)).parse::<f64>()
-        }
-    };
-    // A tie of the exact binary value may be printed either way: 0.5 as 0 or 1, 2.5 as 3.
-    again.is_ok_and(|again| again == printed) || tie(value, &plain, printed)
-}
-
-/// Whether `value` lies exactly half-way between `printed` and its neighbour, in decimal
-/// and to f64's own precision: 0.125 as 0.13.
-fn tie(value: f64, plain: &str, printed: f64) -> bool {
-    let (mantissa, exponent) = plain.split_once(['e', 'E']).unwrap_or((plain, "0"));
+    let (mantissa, exponent) = plain.split_once(['e', 'E']).unwrap_or((&plain, "0"));
     let decimals = mantissa
         .split_once('.')
         .map_or(0, |(_, fraction)| fraction.len());
-    let Ok(exponent) = exponent.parse::<i32>() else {
+    let (Ok(exponent), Ok(decimals)) = (exponent.parse::<i32>(), i32::try_from(decimals)) else {
         return false;
     };
-    let Ok(decimals) = i32::try_from(decimals) else {
-        return false;
-    };
+    // Half of a unit in the last digit printed, and what the difference itself may be off.
     let half = format!("5e{}", exponent.saturating_sub(decimals).saturating_sub(1));
     let half = half.parse::<f64>().unwrap_or(0.0);
-    ((value - printed).abs() - half).abs() <= 2.0 * f64::EPSILON * value.abs().max(half)
+    (value - printed).abs() <= half + 2.0 * f64::EPSILON * value.abs()
 }

@@ -8,7 +8,7 @@ use crate::scope::{Callee, Scope, bind};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Greatest number of operations of a formula with its definitions opened.
-pub const MAX_OPERATIONS: usize = 20_000;
+pub const MAX_OPERATIONS: usize = 4096;
 
 /// The givens of a formula, by name. Cosines and shares are pure numbers, angles radians.
 pub type Values = BTreeMap<String, f64>;

@@ -134,15 +134,17 @@ impl<'l> Lowerer<'l, '_> {
         let span = expr.span;
         self.depth += 1;
         self.steps += 1;
+        // Too large is the whole, not the definition in which that shows.
+        let whole = frame.site.map_or(span, |(site, _)| site);
         if self.depth > MAX_OPENED_DEPTH {
-            let error = Error::new(span, "with its definitions opened this is nested too deep");
-            return Err(self.error(error, frame));
+            let message = "with its definitions opened this is nested too deep";
+            return Err(Error::new(whole, message));
         }
         if self.steps > MAX_OPERATIONS || self.dag.ops.len() > MAX_OPERATIONS {
             let message = format!(
                 "with its definitions opened this has more than {MAX_OPERATIONS} operations"
             );
-            return Err(self.error(Error::new(span, message), frame));
+            return Err(Error::new(whole, message));
         }
         let id = match &expr.node {
             Node::Number { value, .. } => self.push(Op::Number(value.to_bits()), span, frame),

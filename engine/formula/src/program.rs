@@ -1,10 +1,15 @@
-//! A formula as a flat program for blocks of points.
+//! A formula as a flat program for blocks of points: one operation over a whole block at a
+//! time, so that the tree costs little more than compiled code of the same operations.
 
-use crate::dag::Dag;
+use crate::dag::{Dag, Id, Op};
 use crate::error::Error;
 use crate::eval::{Real, apply};
 use crate::expr::Expr;
 use crate::library::Library;
+
+/// Points that are carried through all operations before the next ones are: few enough
+/// that the intermediate values stay in the first cache.
+const CHUNK: usize = 512;
 
 /// One input of a block.
 #[derive(Clone, Copy, Debug)]
@@ -18,8 +23,8 @@ pub enum Column<'a, T> {
 /// Memory that block evaluation reuses between calls.
 #[derive(Debug, Default)]
 pub struct Scratch {
-    _f64: Vec<Vec<f64>>,
-    _f32: Vec<Vec<f32>>,
+    double: Lanes<f64>,
+    single: Lanes<f32>,
 }
 
 impl Scratch {
@@ -29,70 +34,334 @@ impl Scratch {
     }
 }
 
-/// A formula opened and compiled over named inputs. Values outside a domain are NaN or
-/// infinite here, as in compiled code: [`Library::eval`] is the one that explains.
+#[derive(Debug, Default)]
+struct Lanes<T> {
+    /// One chunk of values each.
+    registers: Vec<Vec<T>>,
+    /// The value of every operation that is the same at all points.
+    uniform: Vec<Option<T>>,
+}
+
+/// A formula opened and compiled over named inputs.
+///
+/// Values outside a domain are NaN or infinite here, as in compiled code:
+/// [`Library::eval`] is the one that explains.
 #[derive(Clone, Debug)]
 pub struct Program {
-    dag: Dag,
+    ops: Vec<Op>,
     inputs: Vec<String>,
+    root: Id,
+    /// Where each operation keeps its values in block evaluation.
+    register: Vec<usize>,
+    registers: usize,
 }
 
 impl Library {
-    /// Compiles an expression over the given inputs.
+    /// Compiles an expression over the given inputs. Common parts are computed once.
     ///
     /// # Errors
     /// As [`Library::check_expr`]: the first of them.
     pub fn compile(&self, expr: &Expr, inputs: &[&str]) -> Result<Program, Error> {
         let dag = self.lower(expr, Some(inputs))?;
         let inputs = inputs.iter().map(ToString::to_string).collect();
-        Ok(Program { dag, inputs })
+        Ok(Program::new(&dag, inputs))
     }
 }
 
 impl Program {
+    fn new(dag: &Dag, inputs: Vec<String>) -> Program {
+        let needed = dag.needed();
+        let mut place = vec![0; dag.ops.len()];
+        let mut ops = Vec::new();
+        for (id, op) in dag.ops.iter().enumerate().filter(|(id, _)| needed[*id]) {
+            place[id] = ops.len();
+            // The dag's inputs are the program's, in the same order: they were given.
+            ops.push(op.renumbered(|id| place[id]));
+        }
+        let (register, registers) = registers(&ops);
+        Program {
+            root: place.get(dag.root).copied().unwrap_or(0),
+            ops,
+            inputs,
+            register,
+            registers,
+        }
+    }
+
     /// The names of the inputs, in order.
     pub fn inputs(&self) -> &[String] {
         &self.inputs
     }
 
-    /// The number of operations of one evaluation.
+    /// The number of operations of one evaluation; a call of the core counts as one.
     pub fn ops(&self) -> usize {
-        self.dag.needed().iter().filter(|needed| **needed).count()
+        self.ops
+            .iter()
+            .filter(|op| !op.operands().is_empty())
+            .count()
     }
 
-    /// The value at one point.
+    /// Names of the core's functions that are called, each once.
+    pub fn terms(&self) -> Vec<&'static str> {
+        let mut names = Vec::new();
+        for op in &self.ops {
+            if let Op::Term(term, _) = op
+                && !names.contains(&term.0.name)
+            {
+                names.push(term.0.name);
+            }
+        }
+        names
+    }
+
+    /// The value at one point; an input that is missing is NaN.
     pub fn eval(&self, inputs: &[f64]) -> f64 {
         self.point(inputs)
     }
 
+    /// The value at one point, every operation in f32.
+    pub fn eval_f32(&self, inputs: &[f32]) -> f32 {
+        self.point(inputs)
+    }
+
     fn point<R: Real>(&self, inputs: &[R]) -> R {
-        let mut values: Vec<R> = Vec::with_capacity(self.dag.ops.len());
-        for op in &self.dag.ops {
+        let mut values: Vec<R> = Vec::with_capacity(self.ops.len());
+        for op in &self.ops {
             values.push(apply(op, inputs, |id| values[id]));
         }
-        values.get(self.dag.root).copied().unwrap_or(R::ZERO)
+        values.get(self.root).copied().unwrap_or(R::of(f64::NAN))
     }
 
-    fn block<R: Real>(&self, inputs: &[Column<R>], out: &mut [R]) {
-        let mut point = vec![R::ZERO; inputs.len()];
-        for (index, out) in out.iter_mut().enumerate() {
-            for (slot, column) in point.iter_mut().zip(inputs) {
-                *slot = match column {
-                    Column::Uniform(value) => *value,
-                    Column::Varying(values) => values.get(index).copied().unwrap_or(R::ZERO),
-                };
+    /// The values at a block of points, in f64. A column that is missing or shorter than
+    /// `out` gives NaN where it has no value.
+    pub fn eval_block_f64(&self, inputs: &[Column<f64>], out: &mut [f64], scratch: &mut Scratch) {
+        self.block(inputs, out, &mut scratch.double);
+    }
+
+    /// The values at a block of points, every operation in f32; otherwise as
+    /// [`Program::eval_block_f64`].
+    pub fn eval_block_f32(&self, inputs: &[Column<f32>], out: &mut [f32], scratch: &mut Scratch) {
+        self.block(inputs, out, &mut scratch.single);
+    }
+
+    fn block<R: Real>(&self, inputs: &[Column<R>], out: &mut [R], lanes: &mut Lanes<R>) {
+        let nan = R::of(f64::NAN);
+        let columns: Vec<Column<R>> = (0..self.inputs.len())
+            .map(|index| match inputs.get(index) {
+                Some(Column::Varying(values)) if values.len() < out.len() => Column::Uniform(nan),
+                Some(column) => *column,
+                None => Column::Uniform(nan),
+            })
+            .collect();
+        let constants: Vec<R> = columns
+            .iter()
+            .map(|column| match column {
+                Column::Uniform(value) => *value,
+                Column::Varying(_) => nan,
+            })
+            .collect();
+        let Lanes { registers, uniform } = lanes;
+        uniform.clear();
+        for op in &self.ops {
+            let same = match op {
+                Op::Input(index) => matches!(columns.get(*index), Some(Column::Uniform(_)) | None),
+                _ => op.operands().iter().all(|id| uniform[*id].is_some()),
+            };
+            let value = same.then(|| apply(op, &constants, |id| uniform[id].unwrap_or(nan)));
+            uniform.push(value);
+        }
+        if let Some(value) = uniform.get(self.root).copied().flatten() {
+            out.fill(value);
+            return;
+        }
+        registers.resize_with(self.registers.max(registers.len()), Vec::new);
+        for register in registers.iter_mut() {
+            register.resize(CHUNK, R::ZERO);
+        }
+        for (index, out) in out.chunks_mut(CHUNK).enumerate() {
+            let run = Run {
+                program: self,
+                columns: &columns,
+                uniform,
+                start: index * CHUNK,
+            };
+            run.chunk(registers, out);
+        }
+    }
+}
+
+/// One chunk on its way through the operations.
+struct Run<'a, R> {
+    program: &'a Program,
+    columns: &'a [Column<'a, R>],
+    uniform: &'a [Option<R>],
+    start: usize,
+}
+
+/// An operand over a chunk.
+#[derive(Clone, Copy)]
+enum View<'a, R> {
+    Same(R),
+    Each(&'a [R]),
+}
+
+impl<R: Real> Run<'_, R> {
+    fn chunk(&self, registers: &mut [Vec<R>], out: &mut [R]) {
+        let ops = self.program.ops.iter().enumerate();
+        for (id, op) in ops.filter(|(id, _)| self.uniform[*id].is_none()) {
+            if id == self.program.root {
+                self.operation(op, registers, out);
+                return;
             }
-            *out = self.point(&point);
+            if matches!(op, Op::Input(_)) {
+                continue;
+            }
+            // An operation never writes where it reads: registers are allotted so.
+            let slot = self.program.register[id];
+            let mut to = std::mem::take(&mut registers[slot]);
+            self.operation(op, registers, &mut to[..out.len()]);
+            registers[slot] = to;
         }
     }
 
-    /// The values at a block of points, in f64.
-    pub fn eval_block_f64(&self, inputs: &[Column<f64>], out: &mut [f64], _: &mut Scratch) {
-        self.block(inputs, out);
+    fn view<'v>(&'v self, id: Id, registers: &'v [Vec<R>], count: usize) -> View<'v, R> {
+        if let Some(value) = self.uniform[id] {
+            return View::Same(value);
+        }
+        match &self.program.ops[id] {
+            Op::Input(index) => match self.columns[*index] {
+                Column::Varying(values) => View::Each(&values[self.start..self.start + count]),
+                Column::Uniform(value) => View::Same(value),
+            },
+            _ => View::Each(&registers[self.program.register[id]][..count]),
+        }
     }
 
-    /// The values at a block of points, every operation in f32.
-    pub fn eval_block_f32(&self, inputs: &[Column<f32>], out: &mut [f32], _: &mut Scratch) {
-        self.block(inputs, out);
+    /// The kind of operation is looked at once, outside of the loops.
+    fn operation(&self, op: &Op, registers: &[Vec<R>], out: &mut [R]) {
+        let count = out.len();
+        let view = |id: &Id| self.view(*id, registers, count);
+        match op {
+            Op::Number(_) | Op::Pi => {}
+            Op::Input(index) => {
+                if let Column::Varying(values) = self.columns[*index] {
+                    out.copy_from_slice(&values[self.start..self.start + count]);
+                }
+            }
+            Op::Neg(a) => one(out, view(a), R::neg),
+            Op::Add(a, b) => two(out, view(a), view(b), R::add),
+            Op::Sub(a, b) => two(out, view(a), view(b), R::sub),
+            Op::Mul(a, b) => two(out, view(a), view(b), R::mul),
+            Op::Div(a, b) => two(out, view(a), view(b), R::div),
+            Op::PowInt(a, 2) => one(out, view(a), |x| x.mul(x)),
+            Op::PowInt(a, 3) => one(out, view(a), |x| x.mul(x.mul(x))),
+            Op::PowInt(a, 4) => one(out, view(a), |x| x.mul(x).mul(x.mul(x))),
+            Op::PowInt(a, 5) => one(out, view(a), |x| x.mul(x.mul(x).mul(x.mul(x)))),
+            Op::PowInt(a, power) => one(out, view(a), |x| x.power(*power)),
+            Op::Pow(a, b) => two(out, view(a), view(b), R::pow),
+            Op::Compare(op, a, b) => two(out, view(a), view(b), |x, y| x.compare(*op, y)),
+            Op::Min(a, b) => two(out, view(a), view(b), R::least),
+            Op::Max(a, b) => two(out, view(a), view(b), R::most),
+            Op::Unary(function, a) => one(out, view(a), |x| x.unary(*function)),
+            Op::Term(term, args) => {
+                let views: Vec<View<R>> = args.iter().map(view).collect();
+                let mut values = vec![R::ZERO; args.len()];
+                for (index, out) in out.iter_mut().enumerate() {
+                    for (value, view) in values.iter_mut().zip(&views) {
+                        *value = match view {
+                            View::Same(value) => *value,
+                            View::Each(each) => each[index],
+                        };
+                    }
+                    *out = R::term(term.0, &values);
+                }
+            }
+        }
     }
+}
+
+#[inline(always)]
+fn one<R: Real>(out: &mut [R], a: View<R>, f: impl Fn(R) -> R) {
+    match a {
+        View::Same(a) => out.fill(f(a)),
+        View::Each(a) => {
+            for (out, a) in out.iter_mut().zip(a) {
+                *out = f(*a);
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn two<R: Real>(out: &mut [R], a: View<R>, b: View<R>, f: impl Fn(R, R) -> R) {
+    match (a, b) {
+        (View::Same(a), View::Same(b)) => out.fill(f(a, b)),
+        (View::Same(a), View::Each(b)) => {
+            for (out, b) in out.iter_mut().zip(b) {
+                *out = f(a, *b);
+            }
+        }
+        (View::Each(a), View::Same(b)) => {
+            for (out, a) in out.iter_mut().zip(a) {
+                *out = f(*a, b);
+            }
+        }
+        (View::Each(a), View::Each(b)) => {
+            for ((out, a), b) in out.iter_mut().zip(a).zip(b) {
+                *out = f(*a, *b);
+            }
+        }
+    }
+}
+
+impl Op {
+    fn renumbered(&self, new: impl Fn(Id) -> Id) -> Op {
+        match self {
+            Op::Number(_) | Op::Pi | Op::Input(_) => self.clone(),
+            Op::Neg(a) => Op::Neg(new(*a)),
+            Op::Add(a, b) => Op::Add(new(*a), new(*b)),
+            Op::Sub(a, b) => Op::Sub(new(*a), new(*b)),
+            Op::Mul(a, b) => Op::Mul(new(*a), new(*b)),
+            Op::Div(a, b) => Op::Div(new(*a), new(*b)),
+            Op::PowInt(a, power) => Op::PowInt(new(*a), *power),
+            Op::Pow(a, b) => Op::Pow(new(*a), new(*b)),
+            Op::Compare(op, a, b) => Op::Compare(*op, new(*a), new(*b)),
+            Op::Min(a, b) => Op::Min(new(*a), new(*b)),
+            Op::Max(a, b) => Op::Max(new(*a), new(*b)),
+            Op::Unary(function, a) => Op::Unary(*function, new(*a)),
+            Op::Term(term, args) => Op::Term(*term, args.iter().map(|id| new(*id)).collect()),
+        }
+    }
+}
+
+/// Allots registers: one is free again after the last operation that reads it, and that
+/// operation itself still writes elsewhere.
+fn registers(ops: &[Op]) -> (Vec<usize>, usize) {
+    let mut last_read = vec![0; ops.len()];
+    for (id, op) in ops.iter().enumerate() {
+        for operand in op.operands() {
+            last_read[operand] = id;
+        }
+    }
+    let mut register = vec![0; ops.len()];
+    let mut free = Vec::new();
+    let mut count = 0;
+    for (id, op) in ops.iter().enumerate() {
+        let mut operands = op.operands();
+        if operands.is_empty() {
+            continue;
+        }
+        register[id] = free.pop().unwrap_or_else(|| {
+            count += 1;
+            count - 1
+        });
+        operands.sort_unstable();
+        operands.dedup();
+        for operand in operands {
+            if last_read[operand] == id && !ops[operand].operands().is_empty() {
+                free.push(register[operand]);
+            }
+        }
+    }
+    (register, count)
 }
