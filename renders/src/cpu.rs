@@ -2,12 +2,11 @@
 
 use crate::Fingerprint;
 use crate::error::Error;
+use crate::plan::{Plan, program};
 use crate::sample::Samples;
-use crate::scene::{Scene, VARYING};
 use crate::shade::Values;
-use formula::{Column, Expr, Library, Program, Scratch};
+use formula::{Column, Program, Scratch};
 use std::cell::RefCell;
-use std::collections::BTreeSet;
 
 /// Points evaluated at once: some dozens of columns of this length fit in a core's cache.
 const BLOCK: usize = 1024;
@@ -19,39 +18,46 @@ thread_local! {
 /// Both formulas compiled for one scene.
 pub(crate) struct Cpu {
     right: Program,
-    wrong: Program,
+    second: Second,
     constants: Vec<f64>,
 }
 
+/// Where the wrong value comes from.
+enum Second {
+    /// Its own formula.
+    Wrong(Program),
+    /// The right value times this.
+    Ratio(Program),
+}
+
 impl Cpu {
-    pub fn new(
-        library: &Library,
-        right: &Expr,
-        wrong: &Expr,
-        scene: &Scene,
-    ) -> Result<Self, Error> {
-        let constants = scene.constants();
-        let inputs: Vec<&str> = VARYING
-            .into_iter()
-            .chain(constants.iter().map(|(name, _)| name.as_str()))
-            .collect();
+    pub fn new(fingerprint: &Fingerprint<'_>, plan: &Plan) -> Result<Self, Error> {
         let compile = |which, expr| {
-            library
-                .compile(expr, &inputs)
-                .map_err(|error| Error::Formula { which, error })
+            program(fingerprint, expr).map_err(|error| Error::Formula { which, error })
         };
+        let right = compile("right", fingerprint.right)?;
+        let wrong = compile("wrong", fingerprint.wrong)?;
         Ok(Self {
-            right: compile("right", right)?,
-            wrong: compile("wrong", wrong)?,
-            constants: constants.iter().map(|(_, value)| *value).collect(),
+            right,
+            second: match &plan.ratio {
+                Some(ratio) => Second::Ratio(compile("wrong", ratio)?),
+                None => Second::Wrong(wrong),
+            },
+            constants: fingerprint
+                .scene
+                .constants()
+                .into_iter()
+                .map(|(_, value)| value)
+                .collect(),
         })
     }
 
     pub fn evaluate(&self, samples: &Samples) -> Values {
         let count = samples.len();
-        let mut values = Values {
-            right: vec![0.0; count],
-            wrong: vec![0.0; count],
+        let mut right = vec![0.0; count];
+        let mut second = vec![0.0; count];
+        let program = match &self.second {
+            Second::Wrong(program) | Second::Ratio(program) => program,
         };
         for start in (0..count).step_by(BLOCK) {
             let range = start..(start + BLOCK).min(count);
@@ -67,50 +73,13 @@ impl Cpu {
             .collect();
             SCRATCH.with_borrow_mut(|scratch| {
                 self.right
-                    .eval_block_f64(&columns, &mut values.right[range.clone()], scratch);
-                self.wrong
-                    .eval_block_f64(&columns, &mut values.wrong[range.clone()], scratch);
+                    .eval_block_f64(&columns, &mut right[range.clone()], scratch);
+                program.eval_block_f64(&columns, &mut second[range.clone()], scratch);
             });
         }
-        values
-    }
-}
-
-/// The calls of both formulas: those that change from point to point, and those that do not,
-/// each with the reason why it is evaluated only once.
-pub(crate) fn terms(fingerprint: &Fingerprint<'_>) -> (Vec<String>, Vec<String>) {
-    let mut calls = BTreeSet::new();
-    for expr in [fingerprint.right, fingerprint.wrong] {
-        collect(expr, &mut calls);
-    }
-    let mut evaluated = Vec::new();
-    let mut skipped = Vec::new();
-    for call in calls {
-        let needs = match formula::parse(&call) {
-            Ok(expr) => fingerprint.library.needs(&expr),
-            Err(_) => continue,
-        };
-        if VARYING.iter().any(|name| needs.contains(*name)) {
-            evaluated.push(call);
-        } else {
-            skipped.push(format!("{call}: constant over the picture"));
-        }
-    }
-    (evaluated, skipped)
-}
-
-/// Calls as they are written, outermost only.
-fn collect(expr: &Expr, calls: &mut BTreeSet<String>) {
-    use formula::Node;
-    match &expr.node {
-        Node::Number { .. } | Node::Name(_) => {}
-        Node::Neg(inner) => collect(inner, calls),
-        Node::Binary { left, right, .. } | Node::Compare { left, right, .. } => {
-            collect(left, calls);
-            collect(right, calls);
-        }
-        Node::Call { .. } => {
-            calls.insert(expr.to_string());
+        match &self.second {
+            Second::Wrong(_) => Values::of_both(right, second),
+            Second::Ratio(_) => Values::of_ratio(right, second),
         }
     }
 }

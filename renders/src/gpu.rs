@@ -1,11 +1,13 @@
 //! Both formulas on a graphics processor, without a window. Nothing here is created before a
 //! picture is wanted, and no failure is a panic: every call that can fail runs in an error scope.
 
+use crate::Fingerprint;
 use crate::error::Error;
+use crate::plan::Plan;
 use crate::sample::Samples;
-use crate::scene::{Scene, VARYING};
+use crate::scene::VARYING;
 use crate::shade::Values;
-use formula::{Expr, Library};
+use formula::Wgsl;
 use std::fmt::Write as _;
 
 /// Samples in one dispatch: 16 MiB of input, well within every adapter's limits.
@@ -17,6 +19,7 @@ pub(crate) struct Gpu {
     device: wgpu::Device,
     queue: wgpu::Queue,
     pipeline: wgpu::ComputePipeline,
+    second_is_ratio: bool,
     pub adapter: String,
 }
 
@@ -64,14 +67,8 @@ pub fn gpu_adapter() -> Result<String, Error> {
 }
 
 impl Gpu {
-    pub fn new(
-        wanted: Wanted,
-        library: &Library,
-        right: &Expr,
-        wrong: &Expr,
-        scene: &Scene,
-    ) -> Result<Self, Error> {
-        let source = shader(library, right, wrong, scene)?;
+    pub fn new(wanted: Wanted, fingerprint: &Fingerprint<'_>, plan: &Plan) -> Result<Self, Error> {
+        let source = shader(fingerprint, plan)?;
         let (adapter, info) = adapter(wanted)?;
         let request = adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("fingerprint"),
@@ -98,23 +95,28 @@ impl Gpu {
             device,
             queue,
             pipeline,
+            second_is_ratio: plan.ratio.is_some(),
             adapter: describe(&info),
         })
     }
 
     pub fn evaluate(&self, samples: &Samples) -> Result<Values, Error> {
-        let mut values = Values {
-            right: Vec::with_capacity(samples.len()),
-            wrong: Vec::with_capacity(samples.len()),
-        };
+        let (mut right, mut second) = (
+            Vec::with_capacity(samples.len()),
+            Vec::with_capacity(samples.len()),
+        );
         for start in (0..samples.len()).step_by(CHUNK) {
             let end = (start + CHUNK).min(samples.len());
-            for [right, wrong] in self.dispatch(samples, start, end)? {
-                values.right.push(f64::from(right));
-                values.wrong.push(f64::from(wrong));
+            for pair in self.dispatch(samples, start, end)? {
+                right.push(f64::from(pair[0]));
+                second.push(f64::from(pair[1]));
             }
         }
-        Ok(values)
+        Ok(if self.second_is_ratio {
+            Values::of_ratio(right, second)
+        } else {
+            Values::of_both(right, second)
+        })
     }
 
     fn dispatch(
@@ -231,28 +233,23 @@ fn first_line(text: &str) -> String {
 }
 
 /// The whole shader: the formulas' functions, their constants, and one entry point.
-fn shader(library: &Library, right: &Expr, wrong: &Expr, scene: &Scene) -> Result<String, Error> {
-    let constants = scene.constants();
+fn shader(fingerprint: &Fingerprint<'_>, plan: &Plan) -> Result<String, Error> {
+    let constants = fingerprint.scene.constants();
     let inputs: Vec<&str> = VARYING
         .into_iter()
         .chain(constants.iter().map(|(name, _)| name.as_str()))
         .collect();
     let compile = |which, expr| {
-        library
+        fingerprint
+            .library
             .wgsl(expr, &inputs)
             .map_err(|error| Error::Formula { which, error })
     };
-    let (right, wrong) = (compile("right", right)?, compile("wrong", wrong)?);
-    let mut source = String::new();
-    source.push_str(&right.functions);
-    // Both formulas may need the same functions: each is declared once.
-    for function in functions(&wrong.functions) {
-        if !right.functions.contains(function) {
-            source.push_str(function);
-        }
-    }
+    let right = compile("right", fingerprint.right)?;
+    let second = compile("wrong", plan.ratio.as_ref().unwrap_or(fingerprint.wrong))?;
+    let mut source = Wgsl::functions_of(&[&right, &second]);
     source.push_str(
-        "\n@group(0) @binding(0) var<storage, read> points: array<vec4<f32>>;\n\
+        "@group(0) @binding(0) var<storage, read> points: array<vec4<f32>>;\n\
          @group(0) @binding(1) var<storage, read_write> values: array<vec2<f32>>;\n\n\
          @compute @workgroup_size(64)\n\
          fn shade(@builtin(global_invocation_id) id: vec3<u32>) {\n\
@@ -268,12 +265,7 @@ fn shader(library: &Library, right: &Expr, wrong: &Expr, scene: &Scene) -> Resul
     let _ = writeln!(
         source,
         "    values[id.x] = vec2<f32>({}, {});\n}}",
-        right.expr, wrong.expr
+        right.expr, second.expr
     );
     Ok(source)
-}
-
-/// Top-level functions of a WGSL text, each with its closing brace at the start of a line.
-fn functions(source: &str) -> impl Iterator<Item = &str> {
-    source.split_inclusive("\n}\n")
 }

@@ -20,6 +20,7 @@ mod error;
 mod gpu;
 mod pen;
 mod picture;
+mod plan;
 mod profile;
 mod sample;
 mod scene;
@@ -38,6 +39,8 @@ pub use visibility::Visibility;
 
 use crate::cpu::Cpu;
 use crate::gpu::{Gpu, Wanted};
+use crate::plan::Plan;
+use crate::profile::Profile;
 use crate::sample::Panel;
 use crate::shade::{Engine, Job, Shaded, shade};
 use formula::{Expr, Library};
@@ -144,6 +147,8 @@ pub struct Report {
     pub terms_evaluated: Vec<String>,
     /// Calls that were not evaluated point by point, and why.
     pub terms_skipped: Vec<String>,
+    /// Every decision about what to leave out, as a sentence.
+    pub explain: Vec<String>,
     /// Factor by which both panels' values were multiplied before display.
     pub exposure: f64,
     /// Wall-clock time from formulas to pixels, in milliseconds.
@@ -174,10 +179,12 @@ pub fn render(
     cancel: &AtomicBool,
 ) -> Result<Picture, Error> {
     let start = Instant::now();
-    let profile = profile::Profile::of(fingerprint)?;
+    let plan = Plan::of(fingerprint, options.skip);
+    let cpu = Cpu::new(fingerprint, &plan)?;
+    let profile = Profile::of(fingerprint, &cpu);
     let exposure = profile.exposure();
-    let drawn = draw_panels(fingerprint, options, exposure, cancel)?;
-    let visibility = visibility::measure(fingerprint, &drawn.shaded)?;
+    let drawn = draw_panels(fingerprint, options, &plan, exposure, cancel)?;
+    let visibility = visibility::measure(fingerprint, &cpu, &drawn.shaded);
     let canvas = if options.compact || options.size < LEAST_WITH_TEXT {
         picture::compact(&drawn.panel, &drawn.shaded)
     } else {
@@ -190,7 +197,6 @@ pub fn render(
             &visibility,
         )?
     };
-    let (evaluated, skipped) = drawn.terms;
     let pixels = u64::from(options.size).pow(2);
     Ok(Picture {
         width: canvas.width() as u32,
@@ -201,8 +207,9 @@ pub fn render(
             adapter: drawn.adapter,
             pixels_shaded: drawn.shaded.pixels,
             pixels_skipped: pixels - drawn.shaded.pixels,
-            terms_evaluated: evaluated,
-            terms_skipped: skipped,
+            terms_evaluated: plan.evaluated,
+            terms_skipped: plan.skipped,
+            explain: plan.explain,
             exposure,
             ms: start.elapsed().as_secs_f64() * 1e3,
             visibility,
@@ -215,7 +222,8 @@ pub fn render(
 /// # Errors
 /// As [`render`].
 pub fn raw(fingerprint: &Fingerprint<'_>, options: &Options) -> Result<Raw, Error> {
-    let drawn = draw_panels(fingerprint, options, 1.0, &AtomicBool::new(false))?;
+    let plan = Plan::of(fingerprint, options.skip);
+    let drawn = draw_panels(fingerprint, options, &plan, 1.0, &AtomicBool::new(false))?;
     Ok(Raw {
         size: options.size,
         right: drawn.shaded.right,
@@ -229,27 +237,20 @@ struct Drawn {
     shaded: Shaded,
     backend: &'static str,
     adapter: Option<String>,
-    terms: (Vec<String>, Vec<String>),
 }
 
 fn draw_panels(
     fingerprint: &Fingerprint<'_>,
     options: &Options,
+    plan: &Plan,
     exposure: f64,
     cancel: &AtomicBool,
 ) -> Result<Drawn, Error> {
     if !(MIN_SIZE..=MAX_SIZE).contains(&options.size) {
         return Err(Error::Size(options.size));
     }
-    let Fingerprint {
-        library,
-        right,
-        wrong,
-        scene,
-        ..
-    } = fingerprint;
-    let cpu = || Cpu::new(library, right, wrong, scene);
-    let gpu = |wanted| Gpu::new(wanted, library, right, wrong, scene);
+    let cpu = || Cpu::new(fingerprint, plan);
+    let gpu = |wanted| Gpu::new(wanted, fingerprint, plan);
     let engine = match options.backend {
         Backend::Cpu => Engine::Cpu(cpu()?),
         Backend::Gpu => Engine::Gpu(Box::new(gpu(Wanted::Any)?)),
@@ -260,12 +261,12 @@ fn draw_panels(
     };
     let panel = Panel {
         size: options.size as usize,
-        geometry: scene.geometry(),
-        everywhere: !options.skip,
+        geometry: fingerprint.scene.geometry(),
+        everywhere: !plan.lens,
     };
     let job = Job {
         panel,
-        mirror: options.skip,
+        mirror: plan.mirror,
         exposure,
         cancel,
     };
@@ -279,6 +280,5 @@ fn draw_panels(
         shaded,
         backend,
         adapter,
-        terms: cpu::terms(fingerprint),
     })
 }

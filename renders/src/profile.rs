@@ -1,9 +1,9 @@
 //! The equator of the sphere, from the terminator over the highlight to the lit rim.
 
+use crate::Fingerprint;
 use crate::cpu::Cpu;
+use crate::plan::Plan;
 use crate::sample::Samples;
-use crate::shade::Engine;
-use crate::{Error, Fingerprint};
 
 /// One point of the equator.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,7 +18,7 @@ pub struct ProfilePoint {
     pub right: f64,
     /// Value of the wrong formula, linear.
     pub wrong: f64,
-    /// `wrong / right`; NaN where both are 0.
+    /// `wrong / right`; NaN where both are 0 and nothing more is known.
     pub ratio: f64,
 }
 
@@ -27,34 +27,30 @@ pub struct ProfilePoint {
 ///
 /// Empty where a formula cannot be evaluated in this scene.
 pub fn profile(fingerprint: &Fingerprint<'_>, samples: usize) -> Vec<ProfilePoint> {
-    along(fingerprint, samples).unwrap_or_default()
+    match Cpu::new(fingerprint, &Plan::of(fingerprint, true)) {
+        Ok(cpu) => along(fingerprint, &cpu, samples),
+        Err(_) => Vec::new(),
+    }
 }
 
-fn along(fingerprint: &Fingerprint<'_>, samples: usize) -> Result<Vec<ProfilePoint>, Error> {
+fn along(fingerprint: &Fingerprint<'_>, cpu: &Cpu, samples: usize) -> Vec<ProfilePoint> {
     let (from, to) = fingerprint.scene.geometry().lit_equator();
     let angles: Vec<f64> = (0..samples)
         .map(|i| from + (to - from) * (i as f64 + 0.5) / samples as f64)
         .collect();
-    at_angles(fingerprint, &angles)
+    at_angles(fingerprint, cpu, &angles)
 }
 
 /// The points of the equator at these angles (radians from the centre towards the light).
 pub(crate) fn at_angles(
     fingerprint: &Fingerprint<'_>,
+    cpu: &Cpu,
     angles: &[f64],
-) -> Result<Vec<ProfilePoint>, Error> {
-    let Fingerprint {
-        library,
-        right,
-        wrong,
-        scene,
-        ..
-    } = fingerprint;
-    let geometry = scene.geometry();
-    let engine = Engine::Cpu(Cpu::new(library, right, wrong, scene)?);
+) -> Vec<ProfilePoint> {
+    let geometry = fingerprint.scene.geometry();
     let samples = Samples::of(angles.iter().map(|&psi| geometry.equator(psi)));
-    let values = engine.evaluate(&samples)?;
-    Ok(angles
+    let values = cpu.evaluate(&samples);
+    angles
         .iter()
         .enumerate()
         .map(|(i, psi)| ProfilePoint {
@@ -63,9 +59,9 @@ pub(crate) fn at_angles(
             n_dot_v: samples.n_dot_v[i],
             right: values.right[i],
             wrong: values.wrong[i],
-            ratio: values.wrong[i] / values.right[i],
+            ratio: values.ratio[i],
         })
-        .collect())
+        .collect()
 }
 
 /// A dense profile, kept to draw the curves and to choose the exposure.
@@ -80,14 +76,14 @@ pub(crate) struct Profile {
 pub(crate) const HIGHLIGHT_SHARE: f64 = 0.95;
 
 impl Profile {
-    pub fn of(fingerprint: &Fingerprint<'_>) -> Result<Self, Error> {
+    pub fn of(fingerprint: &Fingerprint<'_>, cpu: &Cpu) -> Self {
         let near_rim = [1e-4, 1e-5].map(|n_dot_v: f64| n_dot_v.acos());
-        let ends = at_angles(fingerprint, &near_rim)?;
+        let ends = at_angles(fingerprint, cpu, &near_rim);
         let rim_growth = (ends[1].wrong / ends[0].wrong).log10();
-        Ok(Self {
-            points: along(fingerprint, 1024)?,
+        Self {
+            points: along(fingerprint, cpu, 1024),
             rim_growth,
-        })
+        }
     }
 
     /// The factor that puts the brightest correct point of the equator just below white. It

@@ -10,11 +10,50 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// Rows of a panel that are sampled and evaluated together: their samples stay in the cache.
 const BAND: usize = 4;
 
-/// Values of both formulas at some samples, negative ones and NaN as 0.
+/// Values of both formulas at some samples, negative ones and NaN as 0, and their ratio.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Values {
     pub right: Vec<f64>,
     pub wrong: Vec<f64>,
+    pub ratio: Vec<f64>,
+}
+
+impl Values {
+    /// From both formulas; 0/0 leaves no ratio (NaN).
+    pub fn of_both(mut right: Vec<f64>, mut wrong: Vec<f64>) -> Self {
+        right.iter_mut().chain(&mut wrong).for_each(clamp);
+        let ratio = right
+            .iter()
+            .zip(&wrong)
+            .map(|(right, wrong)| wrong / right)
+            .collect();
+        Self {
+            right,
+            wrong,
+            ratio,
+        }
+    }
+
+    /// From the right formula and the ratio, which is known even where both values are 0.
+    pub fn of_ratio(mut right: Vec<f64>, ratio: Vec<f64>) -> Self {
+        let mut wrong: Vec<f64> = right
+            .iter()
+            .zip(&ratio)
+            .map(|(right, ratio)| right * ratio)
+            .collect();
+        right.iter_mut().chain(&mut wrong).for_each(clamp);
+        Self {
+            right,
+            wrong,
+            ratio,
+        }
+    }
+}
+
+/// Negative radiance and NaN are black.
+fn clamp(value: &mut f64) {
+    // `max` also turns a NaN into 0.
+    *value = value.max(0.0);
 }
 
 /// What evaluates the formulas.
@@ -25,15 +64,10 @@ pub(crate) enum Engine {
 
 impl Engine {
     pub fn evaluate(&self, samples: &Samples) -> Result<Values, Error> {
-        let mut values = match self {
-            Self::Cpu(cpu) => cpu.evaluate(samples),
-            Self::Gpu(gpu) => gpu.evaluate(samples)?,
-        };
-        for value in values.right.iter_mut().chain(&mut values.wrong) {
-            // `max` also turns a NaN into 0.
-            *value = value.max(0.0);
+        match self {
+            Self::Cpu(cpu) => Ok(cpu.evaluate(samples)),
+            Self::Gpu(gpu) => gpu.evaluate(samples),
         }
-        Ok(values)
     }
 }
 
@@ -84,8 +118,12 @@ impl Shaded {
             self.right_seen[pixel] += share * seen(right);
             self.wrong_seen[pixel] += share * seen(wrong);
             self.lit[pixel] += share;
-            self.brighter[pixel] += if wrong > right { share } else { 0.0 };
-            self.stops[pixel] += share * stops(wrong / right);
+            self.brighter[pixel] += if values.ratio[index] > 1.0 {
+                share
+            } else {
+                0.0
+            };
+            self.stops[pixel] += share * stops(values.ratio[index]);
         }
         for (stops, lit) in self.stops.iter_mut().zip(&self.lit) {
             *stops /= lit.max(f32::MIN_POSITIVE);

@@ -1,11 +1,11 @@
 //! Whether the bug shows: a few numbers that say what the eye may miss.
 
+use crate::Fingerprint;
 use crate::colour::srgb_encode;
 use crate::cpu::Cpu;
 use crate::profile::at_angles;
 use crate::sample::Samples;
-use crate::shade::{Engine, Shaded};
-use crate::{Error, Fingerprint};
+use crate::shade::Shaded;
 
 /// What a fingerprint shows, in numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,18 +27,18 @@ pub struct Visibility {
     pub changed_8: (f64, f64),
 }
 
-pub(crate) fn measure(fingerprint: &Fingerprint<'_>, shaded: &Shaded) -> Result<Visibility, Error> {
+pub(crate) fn measure(fingerprint: &Fingerprint<'_>, cpu: &Cpu, shaded: &Shaded) -> Visibility {
     let geometry = fingerprint.scene.geometry();
     let (terminator, _) = geometry.lit_equator();
     // Just inside: the limit from the lit side, not the value at the edge itself.
-    let on_equator = at_angles(fingerprint, &[geometry.highlight(), terminator + 1e-6])?;
+    let on_equator = at_angles(fingerprint, cpu, &[geometry.highlight(), terminator + 1e-6]);
     let (highlight, edge) = (on_equator[0], on_equator[1]);
-    let rim = rim_median(fingerprint)?;
+    let rim = rim_median(fingerprint, cpu);
 
     let area = |shares: &[f32]| shares.iter().map(|&share| f64::from(share)).sum::<f64>();
     let (brighter_area, lit_area) = (area(&shaded.brighter), area(&shaded.lit));
     let (brighter, dimmer) = changed(shaded);
-    Ok(Visibility {
+    Visibility {
         lit_above_one: share(brighter_area, lit_area),
         disc_above_one: share(brighter_area, disc_area(shaded)),
         ratio_at_highlight: highlight.ratio,
@@ -49,7 +49,7 @@ pub(crate) fn measure(fingerprint: &Fingerprint<'_>, shaded: &Shaded) -> Result<
             0.0
         },
         changed_8: (brighter, dimmer),
-    })
+    }
 }
 
 fn share(part: f64, whole: f64) -> f64 {
@@ -63,17 +63,10 @@ fn disc_area(shaded: &Shaded) -> f64 {
 
 /// Medians of both formulas over the lit part of the ring between 255/256 of the radius and the
 /// radius, in the same points whatever the picture's size.
-fn rim_median(fingerprint: &Fingerprint<'_>) -> Result<(f64, f64), Error> {
+fn rim_median(fingerprint: &Fingerprint<'_>, cpu: &Cpu) -> (f64, f64) {
     const RINGS: usize = 16;
     const SECTORS: usize = 256;
-    let Fingerprint {
-        library,
-        right,
-        wrong,
-        scene,
-        ..
-    } = fingerprint;
-    let geometry = scene.geometry();
+    let geometry = fingerprint.scene.geometry();
     let points = (0..RINGS).flat_map(|ring| {
         let radius = 1.0 - (ring as f64 + 0.5) / (RINGS as f64 * 256.0);
         (0..SECTORS).filter_map(move |sector| {
@@ -81,9 +74,8 @@ fn rim_median(fingerprint: &Fingerprint<'_>) -> Result<(f64, f64), Error> {
             geometry.lit(radius * angle.cos(), radius * angle.sin())
         })
     });
-    let values =
-        Engine::Cpu(Cpu::new(library, right, wrong, scene)?).evaluate(&Samples::of(points))?;
-    Ok((median(values.wrong), median(values.right)))
+    let values = cpu.evaluate(&Samples::of(points));
+    (median(values.wrong), median(values.right))
 }
 
 fn median(mut values: Vec<f64>) -> f64 {

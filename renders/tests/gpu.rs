@@ -1,0 +1,102 @@
+//! The graphics processor and the CPU agree. Without an adapter the tests say that they were
+//! skipped; with LOBE_REQUIRE_GPU=1 they fail instead.
+
+use formula::Library;
+use renders::{Backend, Error, Fingerprint, Options, Scene, gpu_adapter, raw};
+
+fn adapter() -> bool {
+    match gpu_adapter() {
+        Ok(_) => true,
+        Err(error) => {
+            let required = std::env::var("LOBE_REQUIRE_GPU").is_ok_and(|value| value == "1");
+            assert!(!required, "LOBE_REQUIRE_GPU=1, but {error}");
+            println!("skipped: no Vulkan adapter ({error})");
+            false
+        }
+    }
+}
+
+/// Both backends on one wrong formula: relative difference where a value is not tiny.
+#[track_caller]
+fn check_agreement(wrong: &str, roughness: f64, light_deg: f64) {
+    let mut library = Library::new();
+    library
+        .define("s", &["c", "alpha"], "sqrt(alpha^2 + (1 - alpha^2) * c^2)")
+        .and_then(|()| {
+            library.define(
+                "visibility",
+                &["n_dot_l", "n_dot_v", "alpha"],
+                "0.5 / (n_dot_l * s(c = n_dot_v) + n_dot_v * s(c = n_dot_l))",
+            )
+        })
+        .expect("definitions");
+    let right = formula::parse("d_ggx() * visibility() * f_schlick() * n_dot_l").expect("right");
+    let wrong = formula::parse(wrong).expect("wrong");
+    let fingerprint = Fingerprint {
+        lesson: "test",
+        id: "gpu",
+        title: String::new(),
+        caption: String::new(),
+        library: &library,
+        right: &right,
+        wrong: &wrong,
+        scene: Scene {
+            roughness,
+            f0: 0.9,
+            light_deg,
+            others: Default::default(),
+        },
+    };
+    let options = |backend| Options {
+        size: 96,
+        backend,
+        ..Options::default()
+    };
+    let cpu = raw(&fingerprint, &options(Backend::Cpu)).expect("the CPU draws");
+    let gpu = match raw(&fingerprint, &options(Backend::Gpu)) {
+        Ok(raw) => raw,
+        Err(error) => panic!("{error}"),
+    };
+    for (which, cpu, gpu) in [
+        ("right", &cpu.right, &gpu.right),
+        ("wrong", &cpu.wrong, &gpu.wrong),
+    ] {
+        let brightest = cpu.iter().fold(0.0_f64, |a, &b| a.max(b));
+        for (index, (&a, &b)) in cpu.iter().zip(gpu).enumerate() {
+            let tolerance = 2e-4 * a.abs() + 1e-7 * brightest;
+            assert!(
+                (a - b).abs() <= tolerance,
+                "{which} at pixel {index}: {a} and {b}"
+            );
+        }
+    }
+}
+
+#[test]
+fn both_backends_agree() {
+    if !adapter() {
+        return;
+    }
+    let divided_twice = "d_ggx() * visibility() * f_schlick() * n_dot_l / (4 * n_dot_l * n_dot_v)";
+    check_agreement(divided_twice, 0.7, 60.0);
+    check_agreement(divided_twice, 0.2, 30.0);
+    check_agreement(
+        "d_ggx(alpha = roughness) * v_ggx(alpha = roughness) * f_schlick() * n_dot_l",
+        0.4,
+        60.0,
+    );
+    check_agreement(
+        "d_ggx() * v_ggx() * f_schlick(v_dot_h = n_dot_v) * n_dot_l",
+        0.5,
+        100.0,
+    );
+}
+
+#[test]
+fn a_missing_adapter_is_one_line_with_what_to_install() {
+    let error = Error::NoAdapter("none was found".to_owned()).to_string();
+    assert!(
+        error.contains("mesa-vulkan-drivers") && !error.contains('\n'),
+        "{error}"
+    );
+}
