@@ -1,7 +1,7 @@
 //! A [`Canvas`] as a plotters backend: anti-aliased strokes and the bundled font, which
 //! plotters' own bitmap backend does not offer.
 
-use crate::canvas::{Align, Canvas};
+use crate::canvas::{Align, Canvas, Style};
 use crate::colour::Rgb;
 use crate::text::{self, Weight};
 use plotters_backend::{
@@ -161,18 +161,16 @@ impl DrawingBackend for CanvasBackend<'_> {
             HPos::Right => Align::Right,
         };
         // The same offsets as the SVG backend writes, so that both pictures agree.
-        let drop = em
-            * match style.anchor().v_pos {
-                VPos::Top => 0.76,
-                VPos::Center => 0.27,
-                VPos::Bottom => -0.27,
-            };
+        let drop = match style.anchor().v_pos {
+            VPos::Top => 0.76 * em,
+            VPos::Center => 0.27 * em,
+            VPos::Bottom => -0.27 * em,
+        };
+        let look = Style::new(em, weight(style), align, colour);
         if let FontTransform::Rotate270 = style.transform() {
-            self.canvas
-                .text_up(x + drop, y, em, weight(style), align, colour, line);
+            self.canvas.text_up(x + drop, y, look, line);
         } else {
-            self.canvas
-                .text(x, y + drop, em, weight(style), align, colour, line);
+            self.canvas.text(x, y + drop, look, line);
         }
         Ok(())
     }

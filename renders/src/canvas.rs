@@ -154,40 +154,31 @@ impl Canvas {
         self.stroke(&[(x, y), (x, y)], 2.0 * radius, colour, 1.0);
     }
 
-    /// One line of text: (`x`, `y`) is on the baseline; `size` is the em in pixels. Returns the
-    /// width drawn.
-    pub fn text(
-        &mut self,
-        x: f32,
-        y: f32,
-        size: f32,
-        weight: Weight,
-        align: Align,
-        colour: Rgb,
-        line: &str,
-    ) -> f32 {
-        let width = text::width(line, size, weight);
-        let start = x - width * align.share();
+    /// One line of text: (`x`, `y`) is on the baseline.
+    pub fn text(&mut self, x: f32, y: f32, style: Style, line: &str) {
+        let Style {
+            em,
+            weight,
+            align,
+            colour,
+        } = style;
+        let start = x - text::width(line, em, weight) * align.share();
         let (left, base) = (start.floor(), y.round() as i32);
-        text::rasterise(line, size, weight, start - left, |dx, dy, coverage| {
+        text::rasterise(line, em, weight, start - left, |dx, dy, coverage| {
             self.blend(left as i32 + dx, base + dy, colour, coverage);
         });
-        width
     }
 
     /// One line of text that reads upwards; (`x`, `y`) is on its baseline, which runs up.
-    pub fn text_up(
-        &mut self,
-        x: f32,
-        y: f32,
-        size: f32,
-        weight: Weight,
-        align: Align,
-        colour: Rgb,
-        line: &str,
-    ) {
-        let start = y + text::width(line, size, weight) * align.share();
-        text::rasterise(line, size, weight, 0.0, |dx, dy, coverage| {
+    pub fn text_up(&mut self, x: f32, y: f32, style: Style, line: &str) {
+        let Style {
+            em,
+            weight,
+            align,
+            colour,
+        } = style;
+        let start = y + text::width(line, em, weight) * align.share();
+        text::rasterise(line, em, weight, 0.0, |dx, dy, coverage| {
             self.blend(
                 x.round() as i32 + dy,
                 start.round() as i32 - dx,
@@ -195,6 +186,31 @@ impl Canvas {
                 coverage,
             );
         });
+    }
+}
+
+/// How a text looks and hangs.
+#[derive(Clone, Copy, Debug)]
+pub struct Style {
+    /// The em in pixels.
+    pub em: f32,
+    /// How heavy it is.
+    pub weight: Weight,
+    /// Which of its ends is at the point it is drawn at.
+    pub align: Align,
+    /// Its colour.
+    pub colour: Rgb,
+}
+
+impl Style {
+    /// All of it at once.
+    pub fn new(em: f32, weight: Weight, align: Align, colour: Rgb) -> Self {
+        Self {
+            em,
+            weight,
+            align,
+            colour,
+        }
     }
 }
 

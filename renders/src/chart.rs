@@ -5,14 +5,13 @@
 
 use crate::axis::{Axis, Tick};
 use crate::backend::{CanvasBackend, EIGHTHS};
-use crate::canvas::{Canvas, png};
+use crate::canvas::{Align, Canvas, Style, png};
 use crate::colour::{LIGHT, Theme};
 use crate::error::Error;
 use crate::pen::{Frame, Pen, runs};
 use crate::text::{self, Weight};
 use plotters::coord::Shift;
 use plotters::prelude::*;
-use plotters::style::text_anchor::HPos;
 
 /// A figure of curves, in the units of its axes.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -203,10 +202,7 @@ impl Chart<'_> {
             pen.text(
                 em,
                 1.7 * em,
-                size,
-                Weight::Bold,
-                HPos::Left,
-                self.theme.ink,
+                Style::new(size as f32, Weight::Bold, Align::Left, self.theme.ink),
                 &line,
             )?;
         }
@@ -230,17 +226,13 @@ impl Chart<'_> {
         pen.text(
             middle,
             height - 0.9 * em,
-            em,
-            Weight::Regular,
-            HPos::Center,
-            self.theme.ink,
+            Style::new(em as f32, Weight::Regular, Align::Centre, self.theme.ink),
             &self.spec.x_label,
         )?;
         pen.text_up(
             1.7 * em,
             (frame.top + frame.bottom) / 2.0,
-            em,
-            self.theme.ink,
+            Style::new(em as f32, Weight::Regular, Align::Centre, self.theme.ink),
             &self.spec.y_label,
         )
     }
@@ -294,10 +286,7 @@ impl Chart<'_> {
                 pen.text(
                     x + 2.3 * em,
                     y,
-                    em,
-                    Weight::Regular,
-                    HPos::Left,
-                    self.theme.ink,
+                    Style::new(em as f32, Weight::Regular, Align::Left, self.theme.ink),
                     name,
                 )?;
                 x += self.legend_width(name);
@@ -312,10 +301,7 @@ impl Chart<'_> {
                 pen.text(
                     at,
                     y,
-                    em,
-                    Weight::Regular,
-                    HPos::Left,
-                    self.theme.ink,
+                    Style::new(em as f32, Weight::Regular, Align::Left, self.theme.ink),
                     self.marks_are,
                 )?;
             }
@@ -351,10 +337,7 @@ impl Chart<'_> {
             pen.text(
                 frame.left - 0.5 * em,
                 y + 0.36 * em,
-                em,
-                Weight::Regular,
-                HPos::Right,
-                theme.faint,
+                Style::new(em as f32, Weight::Regular, Align::Right, theme.faint),
                 &tick.label,
             )?;
         }
@@ -369,10 +352,7 @@ impl Chart<'_> {
             pen.text(
                 x,
                 frame.bottom + 1.35 * em,
-                em,
-                Weight::Regular,
-                HPos::Center,
-                theme.faint,
+                Style::new(em as f32, Weight::Regular, Align::Centre, theme.faint),
                 &tick.label,
             )?;
         }
@@ -394,10 +374,7 @@ impl Chart<'_> {
                 pen.text(
                     (left + right) / 2.0,
                     middle,
-                    em,
-                    Weight::Regular,
-                    HPos::Center,
-                    self.theme.faint,
+                    Style::new(em as f32, Weight::Regular, Align::Centre, self.theme.faint),
                     says,
                 )?;
             }
@@ -417,10 +394,12 @@ impl Chart<'_> {
             pen.text(
                 x,
                 frame.top - 0.45 * em,
-                0.9 * em,
-                Weight::Regular,
-                HPos::Center,
-                self.theme.faint,
+                Style::new(
+                    (0.9 * em) as f32,
+                    Weight::Regular,
+                    Align::Centre,
+                    self.theme.faint,
+                ),
                 says,
             )?;
         }
@@ -444,9 +423,9 @@ impl Chart<'_> {
             pen.disc(x, y, 0.3 * em, self.theme.ink)?;
             let width = f64::from(text::width(label, em as f32, Weight::Regular));
             let (start, align) = if x + width + em > frame.right {
-                (x - 0.7 * em, HPos::Right)
+                (x - 0.7 * em, Align::Right)
             } else {
-                (x + 0.7 * em, HPos::Left)
+                (x + 0.7 * em, Align::Left)
             };
             let base = if y - 1.4 * em < frame.top {
                 y + 1.3 * em
@@ -456,10 +435,7 @@ impl Chart<'_> {
             pen.text(
                 start,
                 base,
-                em,
-                Weight::Regular,
-                align,
-                self.theme.ink,
+                Style::new(em as f32, Weight::Regular, align, self.theme.ink),
                 label,
             )?;
         }

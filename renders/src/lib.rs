@@ -249,14 +249,15 @@ fn draw_panels(
     if !(MIN_SIZE..=MAX_SIZE).contains(&options.size) {
         return Err(Error::Size(options.size));
     }
-    let cpu = || Cpu::new(fingerprint, plan);
-    let gpu = |wanted| Gpu::new(wanted, fingerprint, plan);
+    let cpu = || Cpu::new(fingerprint, plan).map(|cpu| Engine::Cpu(Box::new(cpu)));
+
+    let gpu = |wanted| Gpu::new(wanted, fingerprint, plan).map(|gpu| Engine::Gpu(Box::new(gpu)));
     let engine = match options.backend {
-        Backend::Cpu => Engine::Cpu(cpu()?),
-        Backend::Gpu => Engine::Gpu(Box::new(gpu(Wanted::Any)?)),
+        Backend::Cpu => cpu()?,
+        Backend::Gpu => gpu(Wanted::Any)?,
         Backend::Auto => match gpu(Wanted::Hardware) {
-            Ok(gpu) => Engine::Gpu(Box::new(gpu)),
-            Err(_) => Engine::Cpu(cpu()?),
+            Ok(gpu) => gpu,
+            Err(_) => cpu()?,
         },
     };
     let panel = Panel {

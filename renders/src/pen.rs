@@ -2,6 +2,7 @@
 
 use crate::axis::Axis;
 use crate::backend::{EIGHTHS, FAMILY};
+use crate::canvas::{Align, Style};
 use crate::colour::Rgb;
 use crate::error::Error;
 use crate::text::Weight;
@@ -140,54 +141,41 @@ impl<B: DrawingBackend> Pen<'_, B> {
         ))
     }
 
-    #[expect(
-        clippy::too_many_arguments,
-        reason = "a text has a place, a look and a content"
-    )]
-    pub fn text(
-        &self,
-        x: f64,
-        baseline: f64,
-        em: f64,
-        weight: Weight,
-        align: HPos,
-        colour: Rgb,
-        line: &str,
-    ) -> Result<(), Error> {
-        let style = self.style(em, weight, align, colour);
+    pub fn text(&self, x: f64, baseline: f64, style: Style, line: &str) -> Result<(), Error> {
         // plotters hangs a text 0.76 em below its top: from the baseline that is upwards.
+        let top = baseline - 0.76 * f64::from(style.em);
         self.area
-            .draw_text(line, &style, (eighths(x), eighths(baseline - 0.76 * em)))
+            .draw_text(line, &plotters_style(style), (eighths(x), eighths(top)))
             .map_err(|e| Error::Plot(e.to_string()))
     }
 
-    pub fn text_up(
-        &self,
-        baseline: f64,
-        y: f64,
-        em: f64,
-        colour: Rgb,
-        line: &str,
-    ) -> Result<(), Error> {
-        let style = self
-            .style(em, Weight::Regular, HPos::Center, colour)
-            .transform(FontTransform::Rotate270);
+    pub fn text_up(&self, baseline: f64, y: f64, style: Style, line: &str) -> Result<(), Error> {
+        let top = baseline - 0.76 * f64::from(style.em);
+        let turned = plotters_style(style).transform(FontTransform::Rotate270);
         self.area
-            .draw_text(line, &style, (eighths(baseline - 0.76 * em), eighths(y)))
+            .draw_text(line, &turned, (eighths(top), eighths(y)))
             .map_err(|e| Error::Plot(e.to_string()))
     }
+}
 
-    fn style(&self, em: f64, weight: Weight, align: HPos, colour: Rgb) -> TextStyle<'static> {
-        let slant = match weight {
-            Weight::Regular => FontStyle::Normal,
-            Weight::Bold => FontStyle::Bold,
-        };
+fn plotters_style(style: Style) -> TextStyle<'static> {
+    let slant = match style.weight {
+        Weight::Regular => FontStyle::Normal,
+        Weight::Bold => FontStyle::Bold,
+    };
+    let align = match style.align {
+        Align::Left => HPos::Left,
+        Align::Centre => HPos::Center,
+        Align::Right => HPos::Right,
+    };
+    TextStyle {
         // plotters divides the size of a font by 1.24 to get the em.
-        let font = FontDesc::new(FontFamily::Name(FAMILY), em * EIGHTHS * 1.24, slant);
-        TextStyle {
-            font,
-            color: rgba(colour, 1.0).to_backend_color(),
-            pos: Pos::new(align, VPos::Top),
-        }
+        font: FontDesc::new(
+            FontFamily::Name(FAMILY),
+            f64::from(style.em) * EIGHTHS * 1.24,
+            slant,
+        ),
+        color: rgba(style.colour, 1.0).to_backend_color(),
+        pos: Pos::new(align, VPos::Top),
     }
 }

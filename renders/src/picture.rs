@@ -1,6 +1,6 @@
 //! The picture that a learner sees: three panels, the profile below them, and the words.
 
-use crate::canvas::{Align, Canvas};
+use crate::canvas::{Align, Canvas, Style};
 use crate::chart::{Chart, PlotSpec};
 use crate::colour::{DARK, RATIO_STOPS, Rgb, diverging, mix, srgb_decode, srgb_encode, to_byte};
 use crate::contour;
@@ -98,10 +98,7 @@ pub(crate) fn full(
     canvas.text(
         margin,
         y,
-        1.7 * em,
-        Weight::Bold,
-        Align::Left,
-        DARK.ink,
+        Style::new(1.7 * em, Weight::Bold, Align::Left, DARK.ink),
         &title,
     );
     y += 0.35 * em;
@@ -110,10 +107,7 @@ pub(crate) fn full(
         canvas.text(
             margin,
             y,
-            1.05 * em,
-            Weight::Regular,
-            Align::Left,
-            DARK.faint,
+            Style::new(1.05 * em, Weight::Regular, Align::Left, DARK.faint),
             line,
         );
     }
@@ -142,10 +136,7 @@ pub(crate) fn full(
         canvas.text(
             margin,
             y,
-            0.95 * em,
-            Weight::Regular,
-            Align::Left,
-            DARK.faint,
+            Style::new(0.95 * em, Weight::Regular, Align::Left, DARK.faint),
             &note,
         );
     }
@@ -224,20 +215,14 @@ fn headings(canvas: &mut Canvas, layout: &Layout, fingerprint: &Fingerprint<'_>,
         canvas.text(
             x,
             top - 2.05 * em,
-            1.15 * em,
-            Weight::Bold,
-            Align::Left,
-            colour,
+            Style::new(1.15 * em, Weight::Bold, Align::Left, colour),
             name,
         );
         let line = shorten(&below, 0.9 * em, Weight::Regular, layout.size);
         canvas.text(
             x,
             top - 0.6 * em,
-            0.9 * em,
-            Weight::Regular,
-            Align::Left,
-            DARK.faint,
+            Style::new(0.9 * em, Weight::Regular, Align::Left, DARK.faint),
             &line,
         );
     }
@@ -292,10 +277,7 @@ fn colour_bar(canvas: &mut Canvas, left: f32, top: f32, width: f32, em: f32) {
         canvas.text(
             x,
             top + height + 1.25 * em,
-            0.9 * em,
-            Weight::Regular,
-            align,
-            DARK.faint,
+            Style::new(0.9 * em, Weight::Regular, align, DARK.faint),
             &label,
         );
     }
@@ -349,14 +331,16 @@ fn figures(canvas: &mut Canvas, left: f32, top: f32, width: f32, em: f32, visibi
     ];
     let mut y = top;
     for (name, value) in rows {
-        canvas.text(left, y, em, Weight::Regular, Align::Left, DARK.faint, name);
+        canvas.text(
+            left,
+            y,
+            Style::new(em, Weight::Regular, Align::Left, DARK.faint),
+            name,
+        );
         canvas.text(
             left + width,
             y,
-            em,
-            Weight::Bold,
-            Align::Right,
-            DARK.ink,
+            Style::new(em, Weight::Bold, Align::Right, DARK.ink),
             &value,
         );
         y += 1.6 * em;

@@ -58,7 +58,7 @@ fn clamp(value: &mut f64) {
 
 /// What evaluates the formulas.
 pub(crate) enum Engine {
-    Cpu(Cpu),
+    Cpu(Box<Cpu>),
     Gpu(Box<Gpu>),
 }
 
