@@ -129,6 +129,7 @@ fn greek(name: &str) -> Option<&'static str> {
         "rho" => "ρ",
         "sigma" => "σ",
         "phi" => "φ",
+        "psi" => "ψ",
         "omega" => "ω",
         _ => return None,
     })

@@ -285,7 +285,7 @@ pub struct Column {
 pub struct Limit {
     /// First cell.
     pub label: Text,
-    /// One cell a computed column.
+    /// One cell a computed column; the input columns' cells may stand before them.
     pub cells: Vec<Text>,
     /// A point near the limit where the words are checked; may be empty.
     pub at: Vec<Given>,

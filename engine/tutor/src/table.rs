@@ -22,7 +22,7 @@ impl Lesson {
             .collect();
         if let Some(limit) = &table.limit {
             let mut cells = vec![words(&limit.label)];
-            let blanks = header.len() - table.columns.len().min(header.len());
+            let blanks = header.len().saturating_sub(limit.cells.len());
             cells.resize(blanks.max(1), String::new());
             cells.extend(limit.cells.iter().map(|cell| words(cell)));
             rows.push(cells);

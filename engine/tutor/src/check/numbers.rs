@@ -162,7 +162,10 @@ fn check_table(checker: &mut Checker<'_>, table: &Table) {
 
 fn limit(checker: &mut Checker<'_>, table: &Table) {
     let Some(limit) = &table.limit else { return };
-    if limit.cells.len() != table.columns.len() {
+    // The label stands in the first column: in that of the first input, where no words do.
+    let first = usize::from(table.row_labels.is_empty());
+    let all = table.columns.len() + table.rows.len().saturating_sub(first);
+    if ![table.columns.len(), all].contains(&limit.cells.len()) {
         let message = format!(
             "The last row has {} cells for {} columns.",
             limit.cells.len(),
@@ -176,7 +179,8 @@ fn limit(checker: &mut Checker<'_>, table: &Table) {
     }
     let mut known = values(&table.with);
     known.extend(values(&limit.at));
-    for (column, cell) in table.columns.iter().zip(&limit.cells) {
+    let computed = &limit.cells[limit.cells.len() - table.columns.len()..];
+    for (column, cell) in table.columns.iter().zip(computed) {
         let Some(value) = checker.value(&column.is, &known) else {
             continue;
         };
