@@ -70,7 +70,7 @@ pub fn code_of(result: Result<Done, Failure>) -> ExitCode {
         Ok(Done::Fine) | Err(Failure::ReaderGone) => ExitCode::SUCCESS,
         Ok(Done::FoundWrong) => ExitCode::from(1),
         Err(Failure::Unusable(line)) => {
-            eprintln!("lobe: {line}");
+            crate::output::complain(&line);
             ExitCode::from(2)
         }
     }

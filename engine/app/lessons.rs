@@ -99,7 +99,7 @@ impl Shelf {
     /// Says on standard error which files cannot be taught; the others still open.
     pub fn warn_of_broken(&self) {
         for file in self.broken() {
-            eprintln!("lobe: {}", file.why_broken());
+            crate::output::complain(&file.why_broken());
         }
     }
 

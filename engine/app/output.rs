@@ -20,6 +20,11 @@ pub fn line(text_of_line: &str) -> Result<(), Failure> {
     text(&format!("{text_of_line}\n"))
 }
 
+/// Writes a line to standard error; where that is gone too, there is nobody to tell.
+pub fn complain(line: &str) {
+    let _ = writeln!(io::stderr(), "lobe: {line}");
+}
+
 /// Writes one JSON object on a line of its own.
 pub fn json(value: &impl Serialize) -> Result<(), Failure> {
     match serde_json::to_string(value) {

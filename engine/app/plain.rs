@@ -93,7 +93,7 @@ impl Plain {
         for notice in self.sitting.notices.clone() {
             print(&text::wrap_plain(&notice.says, WIDTH, "! ", "  "))?;
             if let Some(place) = notice.place {
-                eprintln!("lobe: {place}");
+                output::complain(&place);
             }
         }
         output::line(
@@ -207,14 +207,12 @@ impl Plain {
             print(&text::wrap_plain(note, WIDTH, "! ", "  "))?;
         }
         self.print_unsaved(&view)?;
-        let asks_again = before.is_none_or(|before| {
-            !same_screen
-                || before.blocks != view.blocks
-                || before.input != view.input
-                || before.note != view.note
-        });
-        if asks_again && self.editor.is_none() {
+        if self.editor.is_none() {
             self.ask(&view, same_screen)?;
+        }
+        if !self.echo {
+            // A terminal shows what is typed; this shows where.
+            output::text("> ")?;
         }
         Ok(())
     }

@@ -82,7 +82,7 @@ fn no_value(text: &str, error: &str) -> String {
 
 /// The expression with the place of the error under it.
 fn complain(text: &str, error: &formula::Error) {
-    eprintln!("lobe: {error}");
+    output::complain(&error.to_string());
     let start = error.span.start.min(text.len());
     if let (Some(before), Some(inside)) = (
         text.get(..start),

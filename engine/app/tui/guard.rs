@@ -22,7 +22,7 @@ static TAKEN: AtomicBool = AtomicBool::new(false);
 static SIGNAL: AtomicI32 = AtomicI32::new(0);
 
 /// How long a signalled program may take to save and leave by itself.
-const GRACE: Duration = Duration::from_secs(3);
+const GRACE: Duration = Duration::from_secs(1);
 
 pub type Screen = Terminal<CrosstermBackend<io::Stdout>>;
 

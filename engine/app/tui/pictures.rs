@@ -163,8 +163,11 @@ fn draw(
         _ => u32::from(picker.font_size().width),
     };
     let size = (u32::from(*width) * cell / 3).clamp(64, 1024);
+    // At this size the CPU is done before a driver is loaded, and it writes no messages of its
+    // own over the screen.
     let options = renders::Options {
         size,
+        backend: renders::Backend::Cpu,
         compact: true,
         ..renders::Options::default()
     };

@@ -59,7 +59,9 @@ fn is_figure(block: &Block) -> bool {
 
 impl Page {
     pub fn new(blocks: &[Block], width: u16, palette: Palette) -> Self {
-        let two = width >= TWO_COLUMNS && blocks.iter().any(is_figure);
+        let two = width >= TWO_COLUMNS
+            && blocks.iter().any(is_figure)
+            && !has_pair_for(blocks, width - PROSE - 4);
         let prose = width.min(PROSE);
         let mut page = Self {
             placed: Vec::new(),
@@ -98,7 +100,7 @@ impl Page {
             }
             // In two columns a figure begins no higher than the prose it belongs to.
             let column = if two {
-                right.y = right.y.max(left.y.saturating_sub(6));
+                right.y = right.y.max(left.y.saturating_sub(12));
                 &mut right
             } else {
                 right.y = left.y;
@@ -278,6 +280,15 @@ fn copy_visible(drawn: &Buffer, placed: &Placed, scroll: usize, area: Rect, buff
             }
         }
     }
+}
+
+/// Whether a table and its plot would stand side by side below the prose, but not in a second
+/// column that is `column` wide.
+fn has_pair_for(blocks: &[Block], column: u16) -> bool {
+    blocks.windows(2).any(|pair| match pair {
+        [Block::Table(table), Block::Plot(_)] => table_width(table, column) + 3 + PLOT > column,
+        _ => false,
+    })
 }
 
 /// A table goes beside the plot that follows it (or before it) where both fit.

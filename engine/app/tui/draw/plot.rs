@@ -1,90 +1,141 @@
-//! A plot drawn with characters: axes with numbers, curves in braille, logarithms where asked.
+//! A plot drawn with characters: axes with round numbers at their exact places, curves in
+//! braille and other marks, logarithms where asked.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
+use ratatui::style::Color;
 use ratatui::symbols::Marker;
 use ratatui::text::{Line, Span};
-use ratatui::widgets::{Axis, Chart, Dataset, GraphType, Widget as _};
+use ratatui::widgets::Widget as _;
+use ratatui::widgets::canvas::{Canvas, Line as Stroke};
 use tutor::prose::PlotView;
+use unicode_width::UnicodeWidthStr as _;
 
 use super::style::Palette;
 use crate::text::short;
 
 /// The marks of the curves, so that they are told apart without colours.
 const MARKERS: [(Marker, &str); 4] = [
-    (Marker::Braille, "⠤⠤"),
+    (Marker::Braille, "⠒⠒"),
     (Marker::Dot, "••"),
     (Marker::HalfBlock, "▀▄"),
     (Marker::Bar, "▄▄"),
 ];
 
-/// Rows of a plot of that width: the chart, its title and its legend.
+/// Rows of a plot of that width: title, vertical label, chart, numbers, horizontal label, legend.
 pub fn height(plot: &PlotView, width: u16) -> u16 {
-    let chart = (width / 4).clamp(10, 22);
-    chart + 1 + legend(plot, width as usize, None).len() as u16
+    let chart = (width / 5).clamp(9, 20);
+    chart + 5 + legend(plot, width as usize, None).len() as u16
 }
 
 /// Draws the plot into the whole of `area`.
 pub fn draw(plot: &PlotView, palette: Palette, area: Rect, buffer: &mut Buffer) {
     let legend = legend(plot, area.width as usize, Some(palette));
-    let below = (legend.len() as u16).min(area.height);
-    let chart_area = Rect {
-        y: area.y + 1,
-        height: area.height.saturating_sub(below + 1),
+    let below = legend.len() as u16 + 3;
+    if area.height < below + 5 || area.width < 20 {
+        return;
+    }
+    let row = |y: u16| Rect {
+        y,
+        height: 1,
         ..area
     };
-    Line::styled(plot.title.clone(), palette.title()).render(
-        Rect {
-            height: 1.min(area.height),
-            ..area
-        },
-        buffer,
-    );
+    Line::styled(plot.title.clone(), palette.title()).render(row(area.y), buffer);
 
-    let x = Scale::of(plot.x_range, plot.x_log, usize::from(area.width / 14));
-    let y = Scale::of(plot.y_range, plot.y_log, usize::from(chart_area.height / 3));
-    let curves: Vec<Vec<(f64, f64)>> = plot
-        .series
+    let chart_rows = area.height - below - 2;
+    let y = Scale::of(plot.y_range, plot.y_log, usize::from(chart_rows / 3));
+    let gutter = y
+        .ticks
         .iter()
-        .map(|(_, points)| x.and(&y, points.iter().copied()))
+        .map(|(_, label)| label.width())
+        .max()
+        .unwrap_or(1) as u16;
+    let chart = Rect {
+        x: area.x + gutter + 1,
+        y: area.y + 2,
+        width: area.width - gutter - 2,
+        height: chart_rows,
+    };
+    let x = Scale::of(plot.x_range, plot.x_log, usize::from(chart.width / 10));
+    draw_axes(&x, &y, palette, chart, buffer);
+    let named = |label: &str, log: bool| format!("{label}{}", if log { " (log)" } else { "" });
+    let y_label = Line::styled(named(&plot.y_label, plot.y_log), palette.quiet());
+    y_label.render(row(area.y + 1), buffer);
+    let x_label = Line::styled(named(&plot.x_label, plot.x_log), palette.quiet());
+    x_label
+        .right_aligned()
+        .render(row(chart.bottom() + 2), buffer);
+
+    for (index, (_, points)) in plot.series.iter().enumerate() {
+        let marker = MARKERS[index % MARKERS.len()].0;
+        let colour = palette.curve(index).fg.unwrap_or(Color::Reset);
+        curve(points, marker, colour, (&x, &y), chart, buffer);
+    }
+    for (_, at, value) in &plot.marks {
+        if let (Some(at), Some(value)) = (x.share(*at), y.share(*value)) {
+            let column = (at * f64::from(chart.width - 1)).round() as u16;
+            let row = ((1.0 - value) * f64::from(chart.height - 1)).round() as u16;
+            buffer.set_string(chart.x + column, chart.y + row, "◆", palette.key());
+        }
+    }
+    for (index, line) in legend.into_iter().enumerate() {
+        line.render(row(chart.bottom() + 3 + index as u16), buffer);
+    }
+}
+
+/// A curve as strokes between its neighbouring points.
+fn curve(
+    points: &[(f64, f64)],
+    marker: Marker,
+    colour: Color,
+    (x, y): (&Scale, &Scale),
+    chart: Rect,
+    buffer: &mut Buffer,
+) {
+    let places: Vec<Option<(f64, f64)>> = points
+        .iter()
+        .map(|(at, value)| Some((x.share(*at)?, y.share(*value)?)))
         .collect();
-    let marks = x.and(&y, plot.marks.iter().map(|(_, x, y)| (*x, *y)));
-
-    let mut datasets: Vec<Dataset> = curves
-        .iter()
-        .enumerate()
-        .map(|(index, points)| {
-            Dataset::default()
-                .marker(MARKERS[index % MARKERS.len()].0)
-                .graph_type(GraphType::Line)
-                .style(palette.curve(index))
-                .data(points)
+    Canvas::default()
+        .marker(marker)
+        .x_bounds([0.0, 1.0])
+        .y_bounds([0.0, 1.0])
+        .paint(|canvas| {
+            for pair in places.windows(2) {
+                if let [Some((x1, y1)), Some((x2, y2))] = *pair {
+                    canvas.draw(&Stroke::new(x1, y1, x2, y2, colour));
+                }
+            }
         })
-        .collect();
-    datasets.push(
-        Dataset::default()
-            .marker(Marker::Block)
-            .graph_type(GraphType::Scatter)
-            .style(palette.key())
-            .data(&marks),
-    );
-    Chart::new(datasets)
-        .x_axis(x.axis(&plot.x_label, palette))
-        .y_axis(y.axis(&plot.y_label, palette))
-        .legend_position(None)
-        .render(chart_area, buffer);
+        .render(chart, buffer);
+}
 
-    for (row, line) in legend.into_iter().enumerate() {
-        let at = chart_area.bottom() + row as u16;
-        if at < area.bottom() {
-            line.render(
-                Rect {
-                    y: at,
-                    height: 1,
-                    ..area
-                },
-                buffer,
-            );
+/// The two axes, their ticks and numbers, around the chart.
+fn draw_axes(x: &Scale, y: &Scale, palette: Palette, chart: Rect, buffer: &mut Buffer) {
+    let style = palette.quiet();
+    for row in chart.y..chart.bottom() {
+        buffer.set_string(chart.x - 1, row, "│", style);
+    }
+    buffer.set_string(
+        chart.x - 1,
+        chart.bottom(),
+        format!("└{}", "─".repeat(chart.width as usize)),
+        style,
+    );
+    for (share, label) in &y.ticks {
+        let row = chart.y + ((1.0 - share) * f64::from(chart.height - 1)).round() as u16;
+        buffer.set_string(chart.x - 1, row, "┤", style);
+        buffer.set_string(chart.x - 1 - label.width() as u16, row, label, style);
+    }
+    let mut free_from = 0;
+    for (share, label) in &x.ticks {
+        let column = chart.x + (share * f64::from(chart.width - 1)).round() as u16;
+        buffer.set_string(column, chart.bottom(), "┴", style);
+        let width = label.width() as u16;
+        let start = (column.saturating_sub(width / 2)).min(chart.right() + 1 - width);
+        if start >= free_from {
+            buffer.set_string(start, chart.bottom() + 1, label, style);
+            free_from = start + width + 1;
         }
     }
 }
@@ -100,18 +151,13 @@ fn legend(plot: &PlotView, width: usize, palette: Option<Palette>) -> Vec<Line<'
         )
     });
     let marks = plot.marks.iter().map(|(label, x, y)| {
-        (
-            "█",
-            format!("{label} ({}, {})", short(*x), short(*y)),
-            palette.map(Palette::key),
-        )
+        let says = format!("{label} ({}, {})", short(*x), short(*y));
+        ("◆", says, palette.map(Palette::key))
     });
     let mut lines: Vec<Line<'static>> = Vec::new();
     for (sign, label, style) in curves.chain(marks) {
-        let entry = [
-            Span::styled(sign, style.unwrap_or_default()),
-            Span::raw(format!(" {label}")),
-        ];
+        let sign = Span::styled(sign, style.unwrap_or_default());
+        let entry = [sign, Span::raw(format!(" {label}"))];
         let entry_width: usize = entry.iter().map(Span::width).sum();
         match lines.last_mut() {
             Some(line) if line.width() + 3 + entry_width <= width => {
@@ -124,12 +170,12 @@ fn legend(plot: &PlotView, width: usize, palette: Option<Palette>) -> Vec<Line<'
     lines
 }
 
-/// An axis: where it begins and ends, in its own measure, and its numbers.
+/// An axis: where it begins and ends, in its own measure, and its numbers with their places.
 struct Scale {
     log: bool,
     from: f64,
     to: f64,
-    ticks: Vec<String>,
+    ticks: Vec<(f64, String)>,
 }
 
 impl Scale {
@@ -142,73 +188,67 @@ impl Scale {
         }
     }
 
-    /// Whole decades, or every second or third where there are many.
+    /// Whole decades, or every second or third where there are many; 2 and 5 where there is
+    /// hardly a decade.
     fn log(from: f64, to: f64, most: usize) -> Self {
-        let low = from.log10().floor() as i32;
-        let high = (to.log10().ceil() as i32).max(low + 1);
-        let stride = ((high - low) as usize).div_ceil(most.max(1)).max(1) as i32;
-        let high = low + (high - low + stride - 1) / stride * stride;
-        let ticks = (low..=high)
-            .step_by(stride as usize)
-            .map(|power| short(10f64.powi(power)))
+        let (low, high) = (from.log10(), to.log10());
+        let (first, last) = (low.floor() as i32, high.ceil() as i32);
+        let stride = ((high - low) as usize / most.max(1)).max(1);
+        let within: &[f64] = if high - low < 2.0 {
+            &[1.0, 2.0, 5.0]
+        } else {
+            &[1.0]
+        };
+        let span = (high - low).max(f64::MIN_POSITIVE);
+        let ticks = (first..=last)
+            .step_by(stride)
+            .flat_map(|power| within.iter().map(move |step| step * 10f64.powi(power)))
+            .map(|value| ((value.log10() - low) / span, short(value)))
+            .filter(|(share, _)| (-1e-9..=1.0 + 1e-9).contains(share))
             .collect();
         Self {
             log: true,
-            from: f64::from(low),
-            to: f64::from(high),
+            from: low,
+            to: high,
             ticks,
         }
     }
 
-    /// Round numbers that take in the range.
+    /// Round numbers within the range.
     fn linear(from: f64, to: f64, most: usize) -> Self {
-        let span = if to > from { to - from } else { 1.0 };
+        let to = if to > from { to } else { from + 1.0 };
+        let span = to - from;
         let rough = span / most as f64;
         let power = 10f64.powf(rough.log10().floor());
-        let step = [1.0, 2.0, 2.5, 5.0, 10.0]
+        let step = [1.0, 2.0, 2.5, 5.0]
             .map(|factor| factor * power)
             .into_iter()
-            .find(|step| *step >= rough * 0.999);
-        let step = step.unwrap_or(10.0 * power);
-        let low = (from / step + 1e-9).floor() * step;
-        let count = (((to - low) / step - 1e-9).ceil() as usize).clamp(1, 20);
-        let ticks = (0..=count)
-            .map(|index| short(low + step * index as f64))
+            .find(|step| *step >= rough * 0.999)
+            .unwrap_or(10.0 * power);
+        let first = (from / step - 1e-9).ceil() as i64;
+        let last = (to / step + 1e-9).floor() as i64;
+        let ticks = (first..=last.min(first + 20))
+            .map(|index| index as f64 * step)
+            .map(|value| ((value - from) / span, short(value)))
             .collect();
         Self {
             log: false,
-            from: low,
-            to: low + step * count as f64,
+            from,
+            to,
             ticks,
         }
     }
 
-    fn place(&self, value: f64) -> Option<f64> {
-        let place = if self.log {
-            (value > 0.0).then(|| value.log10())?
-        } else {
-            value
-        };
-        (place.is_finite() && place >= self.from && place <= self.to).then_some(place)
-    }
-
-    fn and(&self, other: &Self, points: impl Iterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
-        points
-            .filter_map(|(x, y)| Some((self.place(x)?, other.place(y)?)))
-            .collect()
-    }
-
-    fn axis(&self, label: &str, palette: Palette) -> Axis<'static> {
-        let title = if self.log {
-            format!("{label} (log)")
-        } else {
-            label.to_owned()
-        };
-        Axis::default()
-            .title(Line::styled(title, palette.quiet()))
-            .style(palette.quiet())
-            .bounds([self.from, self.to])
-            .labels(self.ticks.clone())
+    /// How far along the axis a value is, from 0 to 1.
+    fn share(&self, value: f64) -> Option<f64> {
+        if self.log && value <= 0.0 {
+            return None;
+        }
+        let place = if self.log { value.log10() } else { value };
+        let share = (place - self.from) / (self.to - self.from);
+        (-1e-9..=1.0 + 1e-9)
+            .contains(&share)
+            .then(|| share.clamp(0.0, 1.0))
     }
 }
 
@@ -218,20 +258,40 @@ mod tests {
 
     #[track_caller]
     fn check(range: (f64, f64), log: bool, most: usize, ticks: &[&str]) {
-        assert_eq!(Scale::of(range, log, most).ticks, ticks);
+        let scale = Scale::of(range, log, most);
+        let labels: Vec<&str> = scale
+            .ticks
+            .iter()
+            .map(|(_, label)| label.as_str())
+            .collect();
+        assert_eq!(labels, ticks);
     }
 
     #[test]
     fn axes_have_round_numbers() {
+        check((0.02, 1.0), false, 5, &["0.2", "0.4", "0.6", "0.8", "1"]);
+        check((0.0, 12.43), false, 4, &["0", "5", "10"]);
         check(
-            (0.02, 1.0),
+            (-60.0, 90.0),
             false,
-            5,
-            &["0", "0.2", "0.4", "0.6", "0.8", "1"],
+            6,
+            &["-50", "-25", "0", "25", "50", "75"],
         );
-        check((0.0, 12.43), false, 4, &["0", "5", "10", "15"]);
-        check((0.3, 4.0), true, 4, &["0.1", "1", "10"]);
-        check((1e-6, 1.0), true, 3, &["1.0e-6", "1.0e-4", "0.01", "1"]);
+        check((0.3, 4.0), true, 4, &["0.5", "1", "2"]);
+        check(
+            (0.01, 1000.0),
+            true,
+            6,
+            &["0.01", "0.1", "1", "10", "100", "1000"],
+        );
         check((1.0, 1.0), false, 4, &["1", "1.25", "1.5", "1.75", "2"]);
+    }
+
+    #[test]
+    fn a_value_stands_where_its_number_says() {
+        let scale = Scale::of((0.01, 100.0), true, 6);
+        assert_eq!(scale.share(1.0), Some(0.5));
+        assert_eq!(scale.share(0.0), None);
+        assert_eq!(scale.share(1000.0), None);
     }
 }
