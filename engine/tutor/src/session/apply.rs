@@ -71,11 +71,8 @@ impl Session {
                         says: says.clone(),
                     },
                 );
-                if let Some(problem) = self.problems.get_mut(&(item.clone(), *round))
-                    && problem.given() != *given
-                {
-                    problem.stale = true;
-                    self.diverged = true;
+                if let Some(problem) = self.problems.get_mut(&(item.clone(), *round)) {
+                    problem.answered_to = Some(given.clone());
                 }
             }
             Event::Explained { .. } => self.explained(event),
@@ -138,7 +135,21 @@ impl Session {
         }
     }
 
-    /// Draws an exercise's numbers, once.
+    /// Whether what was replayed does not fit this lesson and this program. Answers in stages
+    /// that are behind may be of other numbers; only the stage shown has to fit.
+    pub(super) fn has_diverged(&self) -> bool {
+        let stage = self.here().base_stage(&self.lesson);
+        let of_stage = |screen: &&Screen| screen.base_stage(&self.lesson) == stage;
+        self.diverged
+            || self
+                .path
+                .iter()
+                .filter(of_stage)
+                .filter_map(|screen| self.problem(screen))
+                .any(Problem::is_stale)
+    }
+
+    /// Begins an exercise, once.
     fn begin(&mut self, item: &str, round: u32) {
         let key = (item.to_owned(), round);
         if self.problems.contains_key(&key) {

@@ -7,7 +7,7 @@ use super::question::{Heard, Question};
 use super::screen::Screen;
 use crate::exercise;
 use crate::judge::{JUDGE_VERSION, Judgement};
-use crate::lesson::Explain;
+use crate::lesson::{Explain, Task};
 use crate::view::Saving;
 
 /// What a message leads to.
@@ -106,7 +106,7 @@ impl Session {
             screen @ (Screen::Faded(_) | Screen::Practice(_) | Screen::Retest(_)) => {
                 let problem = self.problem(screen);
                 problem
-                    .and_then(|problem| Some(Open::Step(problem, problem.current()?)))
+                    .and_then(|problem| Some(Open::Step(problem, problem.open()?.1)))
                     .unwrap_or(Open::Nothing)
             }
             Screen::Explain { item, attempt } => {
@@ -275,14 +275,16 @@ impl Session {
         let Some((item, round)) = self.problem_key(screen) else {
             return Decided::default();
         };
-        let (Some(exercise), Ok(draw)) = (self.lesson.exercise(&item), &problem.draw) else {
+        let (Some(exercise), Ok(draw)) = (self.lesson.exercise(&item), problem.draw()) else {
             return Decided::default();
         };
         let named = (step != WHOLE).then_some(step);
         let earlier = problem.earlier(step);
         let marking = exercise::mark(&self.lesson, exercise, draw, named, &text, &earlier);
         let mistake = marking.mistake();
-        let by_author = |id: &str| exercise.mistakes.iter().any(|named| named.id.text == id);
+        // The mistakes of a choice are all the author's own.
+        let choice = matches!(exercise.task, Task::Choice { .. });
+        let by_author = |id: &str| choice || exercise.mistakes.iter().any(|m| m.id.text == id);
         Decided::event(Event::Attempt {
             item,
             round,

@@ -107,7 +107,7 @@ impl Session {
             session.apply(event);
         }
         let changed = hash != session.lesson.hash;
-        let notice = (changed || session.diverged).then(|| {
+        let notice = (changed || session.has_diverged()).then(|| {
             let event = Event::LessonChanged {
                 hash: session.lesson.hash.clone(),
                 stage: session.stage,

@@ -4,7 +4,7 @@ use super::Session;
 use super::event::{Grade, NotedSlip};
 use super::screen::Screen;
 use super::show::{paragraph, text, verdict};
-use super::show_question::and;
+use super::show_question::{and, count};
 use crate::prose::{Block, Inline, Tone};
 use crate::view::Stage;
 
@@ -28,6 +28,16 @@ pub enum Standing {
 }
 
 impl Standing {
+    const ALL: [Standing; 7] = [
+        Standing::Right,
+        Standing::Retried,
+        Standing::SelfMarked,
+        Standing::Shown,
+        Standing::Missed,
+        Standing::Skipped,
+        Standing::Open,
+    ];
+
     /// Right in a way that counts.
     pub fn counts(self) -> bool {
         match self {
@@ -43,7 +53,7 @@ impl Standing {
             Standing::Skipped => "left out",
             Standing::Right => "right at once",
             Standing::Retried => "right in the end",
-            Standing::Shown => "the answer was shown",
+            Standing::Shown => "with the answer shown",
             Standing::SelfMarked => "right, by your own marking",
             Standing::Missed => "not yet",
         }
@@ -187,8 +197,6 @@ impl Session {
             };
         }
         match self.problem(screen) {
-            // No numbers to be had: nothing to hold against anybody.
-            Some(problem) if problem.draw.is_err() => Standing::Right,
             Some(problem) if problem.is_begun() => {
                 if problem.is_solved() {
                     if problem.is_shown() {
@@ -204,6 +212,8 @@ impl Session {
                     untouched
                 }
             }
+            // No numbers to be had: nothing to hold against anybody.
+            Some(problem) if problem.draw().is_err() => Standing::Right,
             Some(_) | None => untouched,
         }
     }
@@ -252,7 +262,8 @@ impl Session {
         let read = self.reteaches_read();
         let mut words = match (retried, read.as_slice()) {
             (true, []) => "PASS on retry".to_owned(),
-            (true, names) => format!("PASS on retry, after {}", and(names)),
+            (true, names @ ([_] | [_, _])) => format!("PASS on retry, after {}", and(names)),
+            (true, names) => format!("PASS on retry, after {} re-teaches", count(names.len())),
             (false, _) => "PASS at the first try".to_owned(),
         };
         if own {
@@ -279,11 +290,7 @@ impl Session {
             Grade::NotYet => Tone::Near,
         };
         let mut blocks = vec![verdict(tone, &words, vec![text(says)])];
-        let items: Vec<Vec<Inline>> = self
-            .items()
-            .iter()
-            .map(|item| vec![text(format!("{}: {}", item.title, item.standing.words()))])
-            .collect();
+        let items = self.item_lines();
         if !items.is_empty() {
             blocks.push(Block::Heading("What you did".to_owned()));
             blocks.push(Block::List {
@@ -308,6 +315,42 @@ impl Session {
             }
         }));
         blocks
+    }
+
+    /// Questions one by one, exercises by how many went how.
+    fn item_lines(&self) -> Vec<Vec<Inline>> {
+        let items = self.items();
+        let mut lines = Vec::new();
+        for (stage, name) in [
+            (Stage::Practice, "Exercises"),
+            (Stage::Retest, "Fresh numbers"),
+        ] {
+            let of_stage = |item: &&ItemOutcome| {
+                item.stage == stage && self.lesson.explain(&item.item).is_none()
+            };
+            let standings: Vec<Standing> =
+                items.iter().filter(of_stage).map(|i| i.standing).collect();
+            let counts: Vec<String> = Standing::ALL
+                .iter()
+                .map(|standing| {
+                    (
+                        standing,
+                        standings.iter().filter(|s| *s == standing).count(),
+                    )
+                })
+                .filter(|(_, n)| *n > 0)
+                .map(|(standing, n)| format!("{} {}", count(n), standing.words()))
+                .collect();
+            if !counts.is_empty() {
+                lines.push(vec![text(format!("{name}: {}.", counts.join(", ")))]);
+            }
+        }
+        let questions = items
+            .iter()
+            .filter(|item| self.lesson.explain(&item.item).is_some())
+            .map(|item| vec![text(format!("{}: {}.", item.title, item.standing.words()))]);
+        lines.extend(questions);
+        lines
     }
 
     fn slip_lines(&self) -> Vec<Vec<Inline>> {

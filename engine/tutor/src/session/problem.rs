@@ -1,9 +1,10 @@
 //! One exercise with its numbers, and what was said about it so far.
 
 use crate::exercise::{self, Draw, NoDraw, Truth};
-use crate::lesson::{Exercise, Lesson};
+use crate::lesson::{Exercise, Lesson, Task};
 use formula::Values;
 use std::collections::BTreeMap;
+use std::sync::{Arc, OnceLock};
 
 /// The name of the only step of an exercise that has no steps of its own.
 pub(super) const WHOLE: &str = "";
@@ -11,14 +12,17 @@ pub(super) const WHOLE: &str = "";
 /// An exercise begun.
 #[derive(Clone, Debug)]
 pub(super) struct Problem {
+    lesson: Arc<Lesson>,
+    item: String,
     pub(super) seed: u64,
-    pub(super) draw: Result<Draw, NoDraw>,
+    /// Drawn when first looked at, so that resuming draws what it shows and no more.
+    draw: OnceLock<Result<Draw, NoDraw>>,
+    /// The numbers that an answer was given to, as the log has them.
+    pub(super) answered_to: Option<Values>,
     /// The steps that the learner is asked for, in order.
     pub(super) asked: Vec<String>,
     /// What was said, in order.
     pub(super) turns: Vec<Turn>,
-    /// The numbers that were drawn then are not those drawn now.
-    pub(super) stale: bool,
 }
 
 /// One exchange.
@@ -61,34 +65,56 @@ impl Turn {
 }
 
 impl Problem {
-    /// Draws the numbers; `last` limits the question to so many of the last steps.
+    /// `last` limits the question to so many of the last steps.
     pub(super) fn new(
-        lesson: &Lesson,
+        lesson: &Arc<Lesson>,
         exercise: &Exercise,
         seed: u64,
         last: Option<usize>,
     ) -> Problem {
-        let draw = exercise::draw(lesson, exercise, seed);
-        let steps = draw.as_ref().map_or(&[][..], |draw| &draw.steps);
-        let first = last.map_or(0, |last| steps.len().saturating_sub(last));
-        let mut asked: Vec<String> = steps[first..].iter().map(|s| s.name.clone()).collect();
-        if asked.is_empty() && draw.is_ok() {
-            asked.push(WHOLE.to_owned());
-        }
+        let mut asked: Vec<String> = match &exercise.task {
+            Task::Numeric { steps } => steps.iter().map(|step| step.name.text.clone()).collect(),
+            Task::FindTheMistake { .. } => vec!["line".to_owned(), "answer".to_owned()],
+            Task::Choice { .. } | Task::Order { .. } => vec![WHOLE.to_owned()],
+        };
+        asked.drain(..last.map_or(0, |last| asked.len().saturating_sub(last)));
         Problem {
+            lesson: Arc::clone(lesson),
+            item: exercise.id.text.clone(),
             seed,
-            draw,
+            draw: OnceLock::new(),
+            answered_to: None,
             asked,
             turns: Vec::new(),
-            stale: false,
         }
     }
 
-    /// The step to answer now; none when the exercise is done or has no numbers.
+    /// The numbers.
+    pub(super) fn draw(&self) -> Result<&Draw, &NoDraw> {
+        let draw = || match self.lesson.exercise(&self.item) {
+            Some(exercise) => exercise::draw(&self.lesson, exercise, self.seed),
+            None => Err(NoDraw {
+                message: "The lesson no longer has this exercise.".to_owned(),
+            }),
+        };
+        self.draw.get_or_init(draw).as_ref()
+    }
+
+    /// The numbers answered to are not those drawn now: the lesson or the program has changed.
+    pub(super) fn is_stale(&self) -> bool {
+        let other = |then: &Values| self.draw().map_or(true, |draw| draw.given != *then);
+        self.answered_to.as_ref().is_some_and(other)
+    }
+
+    /// What can be answered now: the numbers and the step.
+    pub(super) fn open(&self) -> Option<(&Draw, &str)> {
+        let step = self.current()?;
+        let draw = self.draw().ok()?;
+        (!self.is_stale()).then_some((draw, step))
+    }
+
+    /// The first step that is not settled.
     pub(super) fn current(&self) -> Option<&str> {
-        if self.stale {
-            return None;
-        }
         let open = |step: &&String| !self.is_settled(step);
         self.asked.iter().find(open).map(String::as_str)
     }
@@ -156,6 +182,12 @@ impl Problem {
         })
     }
 
+    /// The step's true value was given.
+    pub(super) fn is_correct(&self, step: &str) -> bool {
+        self.turns_on(step)
+            .any(|turn| matches!(turn, Turn::Attempt { result, .. } if result == "correct"))
+    }
+
     /// Mistakes made that the author names.
     pub(super) fn slips(&self) -> impl Iterator<Item = &String> {
         self.turns.iter().filter_map(|turn| match turn {
@@ -183,17 +215,19 @@ impl Problem {
         self.asked.last().is_some_and(|step| self.hints(step) == 3)
     }
 
-    /// The numbers drawn.
+    /// The numbers as the learner had them.
     pub(super) fn given(&self) -> Values {
-        self.draw
-            .as_ref()
-            .map(|draw| draw.given.clone())
-            .unwrap_or_default()
+        let drawn = || {
+            self.draw()
+                .map(|draw| draw.given.clone())
+                .unwrap_or_default()
+        };
+        self.answered_to.clone().unwrap_or_else(drawn)
     }
 
     /// A step's name and value as shown when given away: `α`, `0.16`.
     pub(super) fn truth(&self, step: &str) -> Option<(String, String)> {
-        let draw = self.draw.as_ref().ok()?;
+        let draw = self.draw().ok()?;
         if let Some(truth) = draw.steps.iter().find(|truth| truth.name == step) {
             return Some((truth.ask.clone(), truth.shown.clone()));
         }

@@ -45,6 +45,14 @@ pub(super) fn verdict(tone: Tone, title: &str, text: Vec<Inline>) -> Block {
     }
 }
 
+/// The words with a capital letter first.
+pub(super) fn capital(words: &str) -> String {
+    let mut chars = words.chars();
+    chars.next().map_or_else(String::new, |first| {
+        first.to_uppercase().chain(chars).collect()
+    })
+}
+
 impl Session {
     /// Makes the view anew; what is saved and noted stays.
     pub(super) fn refresh(&mut self) {
@@ -68,8 +76,9 @@ impl Session {
         };
     }
 
-    /// Pictures on the screen, to be drawn.
-    pub(super) fn pictures(&self) -> Vec<Effect> {
+    /// Pictures on the screen, to be drawn: [`Session::update`] asks for them when a screen comes
+    /// up, and whoever resumes asks here.
+    pub fn pictures(&self) -> Vec<Effect> {
         let blocks = self.view.blocks.iter();
         blocks
             .filter_map(|block| match block {
@@ -110,11 +119,10 @@ impl Session {
             Screen::Explain { item, attempt } => show_question::page(self, item, *attempt),
             Screen::Reteach { name, .. } => match lesson.reteach(name) {
                 Some(reteach) => {
-                    let mut blocks = vec![paragraph(format!(
-                        "Something was missing, so here is another angle on it: {}. Then the \
-                         same question again.",
-                        reteach.name.text
-                    ))];
+                    let mut blocks = vec![paragraph(
+                        "What was missing, from another angle. Then you get the same question \
+                         again.",
+                    )];
                     blocks.extend(lesson.prose(&reteach.text, &none));
                     blocks.extend(lesson.figures(&reteach.figures));
                     (reteach.title.text.clone(), blocks)
@@ -192,23 +200,18 @@ impl Session {
     }
 
     fn place(&self, here: &Screen) -> (usize, usize) {
-        let (here, all): (Screen, Vec<&Screen>) = match here {
-            Screen::Explain { item, .. } | Screen::Reteach { item, .. } => (
-                Screen::Explain {
-                    item: item.clone(),
-                    attempt: 1,
-                },
-                self.path.iter().collect(),
-            ),
-            other => (other.clone(), self.path.iter().collect()),
-        };
         let stage = here.base_stage(&self.lesson);
-        let same: Vec<&&Screen> = all
-            .iter()
-            .filter(|screen| screen.base_stage(&self.lesson) == stage)
-            .collect();
-        let at = same.iter().position(|screen| ***screen == here);
-        (at.unwrap_or(0) + 1, same.len().max(1))
+        let of_stage = |screen: &&Screen| screen.base_stage(&self.lesson) == stage;
+        let item = |screen: &Screen| match screen {
+            Screen::Explain { item, .. } | Screen::Reteach { item, .. } => Some(item.clone()),
+            _ => None,
+        };
+        let same = |screen: &Screen| {
+            screen == here || (item(here).is_some() && item(screen) == item(here))
+        };
+        let mut all = self.path.iter().filter(of_stage);
+        let of = all.clone().count().max(1);
+        (all.position(same).map_or(1, |at| at + 1), of)
     }
 
     fn input(&self) -> Input {

@@ -3,7 +3,7 @@
 use super::Session;
 use super::problem::{Problem, Turn, WHOLE};
 use super::screen::Screen;
-use super::show::{paragraph, text, verdict};
+use super::show::{capital, paragraph, text, verdict};
 use crate::exercise;
 use crate::lesson::{Exercise, Lesson, Task};
 use crate::prose::{Block, Inline, Tone};
@@ -19,7 +19,7 @@ pub(super) fn page(session: &Session, screen: &Screen) -> (String, Vec<Block>) {
         return Default::default();
     };
     let heading = heading(session, screen);
-    if let Err(no_draw) = &problem.draw {
+    if let Err(no_draw) = problem.draw() {
         let says = format!("{} Go on without it.", no_draw.message);
         return (
             heading,
@@ -37,13 +37,13 @@ pub(super) fn page(session: &Session, screen: &Screen) -> (String, Vec<Block>) {
     if let Screen::Faded(_) = screen {
         blocks.extend(known_lines(lesson, problem, &given));
     }
-    if let (Task::FindTheMistake { .. }, Ok(draw)) = (&exercise.task, &problem.draw) {
+    if let (Task::FindTheMistake { .. }, Ok(draw)) = (&exercise.task, problem.draw()) {
         blocks.push(Block::List {
             ordered: true,
             items: draw.shown.iter().map(|line| vec![text(line)]).collect(),
         });
     }
-    if problem.stale {
+    if problem.is_stale() {
         blocks.push(verdict(
             Tone::Info,
             "Answered before the lesson changed",
@@ -53,7 +53,7 @@ pub(super) fn page(session: &Session, screen: &Screen) -> (String, Vec<Block>) {
         ));
     }
     blocks.extend(talk(lesson, exercise, problem));
-    if problem.is_done() && !problem.stale {
+    if problem.is_done() && !problem.is_stale() {
         blocks.extend(closing(lesson, exercise, problem));
     }
     (heading, blocks)
@@ -119,10 +119,10 @@ fn known_lines(lesson: &Lesson, problem: &Problem, given: &Values) -> Vec<Block>
 fn talk(lesson: &Lesson, exercise: &Exercise, problem: &Problem) -> Vec<Block> {
     let mut blocks = Vec::new();
     let several = problem.asked.len() > 1;
-    let current = problem.current();
+    let current = problem.open().map(|(_, step)| step);
     for (index, step) in problem.asked.iter().enumerate() {
         let mut turns = problem.turns_on(step).peekable();
-        let reached = turns.peek().is_some() || current == Some(step.as_str());
+        let reached = turns.peek().is_some() || current == Some(step);
         if !reached {
             continue;
         }
@@ -144,58 +144,102 @@ fn talk(lesson: &Lesson, exercise: &Exercise, problem: &Problem) -> Vec<Block> {
 fn said(lesson: &Lesson, exercise: &Exercise, problem: &Problem, turn: &Turn) -> Vec<Block> {
     match turn {
         Turn::Hint { step, level } => {
-            let Ok(draw) = &problem.draw else {
-                return Vec::new();
-            };
             let title = match level {
                 1 => "A nudge",
                 2 => "A bigger hint",
                 _ => "The answer",
             };
-            let named = (step != WHOLE).then_some(step.as_str());
-            let mut blocks = vec![verdict(Tone::Info, title, Vec::new())];
-            blocks.extend(exercise::hint(lesson, exercise, draw, named, *level));
-            blocks
+            let hint = match problem.draw() {
+                Ok(draw) if !problem.is_stale() => {
+                    exercise::hint(lesson, exercise, draw, named(step), *level)
+                }
+                _ => Vec::new(),
+            };
+            under(Tone::Info, title, hint)
         }
         Turn::Attempt {
             step,
             text: typed,
             result,
             mistake,
+            named: by_author,
             says,
-            ..
         } => {
-            let answer = vec![text("You: "), Inline::Code(one_line(typed))];
-            let (tone, title) = title(result, mistake.as_deref());
-            let says = match result.as_str() {
-                "correct" => confirmed(problem, step),
-                _ => lesson.inline(says, &Values::new()),
-            };
-            vec![Block::Paragraph(answer), verdict(tone, title, says)]
+            let mut answer = vec![text("You: "), Inline::Code(one_line(typed))];
+            if let Some(meant) = meant(exercise, problem, typed) {
+                answer.push(text(format!(", {meant}")));
+            }
+            let (tone, title) = title(result, mistake.is_some(), *by_author);
+            let mut blocks = vec![Block::Paragraph(answer)];
+            if result == "correct" {
+                let after = match problem.draw() {
+                    Ok(draw) if !problem.is_stale() => {
+                        exercise::after_right(lesson, exercise, draw, named(step))
+                    }
+                    _ => Vec::new(),
+                };
+                let value = confirmed(problem, step);
+                if value.is_empty() {
+                    blocks.extend(under(tone, title, after));
+                } else {
+                    blocks.push(verdict(tone, title, value));
+                    blocks.extend(after);
+                }
+                return blocks;
+            }
+            // The title says it already.
+            let says = says.strip_prefix("Not yet").map_or_else(
+                || says.clone(),
+                |rest| capital(rest.trim_start_matches([':', '.', ' '])),
+            );
+            blocks.extend(under(tone, title, lesson.prose(&says, &Values::new())));
+            blocks
         }
-        Turn::GoneOn { .. } => vec![paragraph("Left as it is; on with your own value.")],
+        Turn::GoneOn { step } => {
+            let last = problem.asked.last() == Some(step);
+            let own = !last && problem.hints(step) < 3 && exercise.kind() == "numeric";
+            let more = if own { "; on with your own value" } else { "" };
+            vec![paragraph(format!("Left as it is{more}."))]
+        }
     }
 }
 
-fn title(result: &str, mistake: Option<&str>) -> (Tone, &'static str) {
-    match (result, mistake) {
-        ("correct", _) => (Tone::Good, "Correct"),
-        ("carried", _) => (Tone::Near, "Right, given the earlier slip"),
-        ("precision", _) => (Tone::Near, "The right value, too few digits"),
-        ("mistake", Some(_)) => (Tone::Bad, "A mistake with a name"),
-        ("mistake", None) => (Tone::Bad, "Not this"),
-        ("invalid", _) => (Tone::Info, "Not counted"),
+fn named(step: &str) -> Option<&str> {
+    (step != WHOLE).then_some(step)
+}
+
+fn title(result: &str, mistake: bool, by_author: bool) -> (Tone, &'static str) {
+    match result {
+        "correct" => (Tone::Good, "Correct"),
+        "carried" => (Tone::Near, "Right, given the earlier slip"),
+        "precision" => (Tone::Near, "The right value, too few digits"),
+        "mistake" if by_author => (Tone::Bad, "A known mistake"),
+        "mistake" if mistake => (Tone::Bad, "A likely slip"),
+        "invalid" => (Tone::Info, "Not counted"),
         _ => (Tone::Bad, "Not yet"),
     }
+}
+
+/// Blocks below a title; a paragraph that comes first stands beside it.
+fn under(tone: Tone, title: &str, blocks: Vec<Block>) -> Vec<Block> {
+    let mut rest = blocks.into_iter().peekable();
+    let first = match rest.next_if(|block| matches!(block, Block::Paragraph(_))) {
+        Some(Block::Paragraph(first)) => first,
+        _ => Vec::new(),
+    };
+    std::iter::once(verdict(tone, title, first))
+        .chain(rest)
+        .collect()
 }
 
 /// What a right answer is told: the value itself, so that rounding is seen.
 fn confirmed(problem: &Problem, step: &str) -> Vec<Inline> {
     match problem.truth(step) {
-        Some((ask, shown)) if !ask.is_empty() && !problem.stale => {
-            vec![Inline::Math(format!("{ask} = {shown}"))]
-        }
-        _ => Vec::new(),
+        Some(_) if problem.is_stale() => Vec::new(),
+        // An exercise that asks for one thing only has no name for it.
+        Some((_, shown)) if problem.asked == ["answer"] => vec![Inline::Math(shown)],
+        Some((ask, shown)) if !ask.is_empty() => vec![Inline::Math(format!("{ask} = {shown}"))],
+        Some(_) | None => Vec::new(),
     }
 }
 
@@ -208,30 +252,27 @@ fn ask(problem: &Problem, step: &str) -> String {
         .unwrap_or_else(|| "your answer".to_owned())
 }
 
-/// After the last step: the whole way, where it was not gone without help.
+/// After the last step: the whole way, where some of it is still to be seen.
 fn closing(lesson: &Lesson, exercise: &Exercise, problem: &Problem) -> Vec<Block> {
-    if problem.is_clean() {
+    let unseen = |step: &&String| problem.hints(step) < 3 && !problem.is_correct(step);
+    if !problem.asked.iter().any(|step| unseen(&step)) {
         return Vec::new();
     }
-    let Ok(draw) = &problem.draw else {
+    let Ok(draw) = problem.draw() else {
         return Vec::new();
     };
-    if problem.is_solved() && problem.asked.len() == 1 {
-        return Vec::new();
-    }
     let mut blocks = vec![Block::Heading("The whole way".to_owned())];
     for step in &problem.asked {
-        let named = (step != WHOLE).then_some(step.as_str());
-        blocks.extend(exercise::hint(lesson, exercise, draw, named, 3));
+        blocks.extend(exercise::hint(lesson, exercise, draw, named(step), 3));
     }
     blocks
 }
 
+/// What is asked for on the screen shown.
 pub(super) fn input(session: &Session, problem: &Problem, step: &str) -> Input {
-    let Some((item, _)) = session.problem_key(session.here()) else {
-        return Input::None;
-    };
-    let (Some(exercise), Ok(draw)) = (session.lesson.exercise(&item), &problem.draw) else {
+    let key = session.problem_key(session.here());
+    let exercise = key.and_then(|(item, _)| session.lesson.exercise(&item));
+    let (Some(exercise), Ok(draw)) = (exercise, problem.draw()) else {
         return Input::None;
     };
     match &exercise.task {
@@ -241,13 +282,82 @@ pub(super) fn input(session: &Session, problem: &Problem, step: &str) -> Input {
         Task::Order { .. } => Input::Order {
             items: draw.shown.clone(),
         },
-        Task::FindTheMistake { .. } if step == "line" => Input::Choice {
-            options: draw.shown.clone(),
+        Task::FindTheMistake { .. } if step == "line" => Input::Number {
+            label: ask(problem, step),
+            note: format!("its number, 1 to {}", draw.shown.len()),
         },
         Task::Numeric { .. } | Task::FindTheMistake { .. } => Input::Number {
             label: ask(problem, step),
             note: exercise::tolerance_words(exercise),
         },
+    }
+}
+
+/// What an exercise still asks for, for those who read without answering.
+pub(super) fn still_asked(session: &Session, screen: &Screen) -> Vec<Block> {
+    let key = session.problem_key(screen);
+    let Some((exercise, problem)) = key.and_then(|key| {
+        Some((
+            session.lesson.exercise(&key.0)?,
+            session.problems.get(&key)?,
+        ))
+    }) else {
+        return Vec::new();
+    };
+    let Some((draw, current)) = problem.open() else {
+        return Vec::new();
+    };
+    match &exercise.task {
+        Task::Choice { .. } | Task::Order { .. } => vec![Block::List {
+            ordered: matches!(exercise.task, Task::Order { .. }),
+            items: draw
+                .shown
+                .iter()
+                .map(|option| session.lesson.inline(option, &Values::new()))
+                .collect(),
+        }],
+        Task::Numeric { .. } | Task::FindTheMistake { .. } => {
+            let open = problem.asked.iter().skip_while(|step| *step != current);
+            let asks: Vec<String> = open.map(|step| ask(problem, step)).collect();
+            let within = exercise::tolerance_words(exercise);
+            vec![paragraph(format!("Asked: {} ({within}).", asks.join("; ")))]
+        }
+    }
+}
+
+/// The options behind a letter or numbers.
+fn meant(exercise: &Exercise, problem: &Problem, typed: &str) -> Option<String> {
+    let shown = &problem.draw().ok().filter(|_| !problem.is_stale())?.shown;
+    match &exercise.task {
+        Task::Choice { .. } => {
+            let typed = typed.trim();
+            let place = match typed.parse::<usize>() {
+                Ok(number) => number.checked_sub(1)?,
+                Err(_) => {
+                    let mut chars = typed.chars();
+                    let letter = chars.next()?.to_ascii_lowercase();
+                    if chars.any(|c| c.is_alphanumeric()) || !letter.is_ascii_lowercase() {
+                        return None;
+                    }
+                    usize::from(letter as u8 - b'a')
+                }
+            };
+            shown.get(place).cloned()
+        }
+        Task::Order { .. } => {
+            let numbers = typed.split(|c: char| !c.is_ascii_digit());
+            let places = numbers.filter(|number| !number.is_empty());
+            let texts: Option<Vec<&str>> = places
+                .map(|number| {
+                    let place = number.parse::<usize>().ok()?.checked_sub(1)?;
+                    shown.get(place).map(String::as_str)
+                })
+                .collect();
+            texts
+                .filter(|texts| texts.len() == shown.len())
+                .map(|texts| texts.join(" → "))
+        }
+        Task::Numeric { .. } | Task::FindTheMistake { .. } => None,
     }
 }
 

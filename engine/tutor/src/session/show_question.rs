@@ -2,7 +2,7 @@
 
 use super::Session;
 use super::question::{Question, Try};
-use super::show::{paragraph, text, verdict};
+use super::show::{capital, paragraph, text, verdict};
 use crate::judge::Verdict;
 use crate::lesson::{Explain, Lesson};
 use crate::prose::{Block, Inline, Tone};
@@ -29,7 +29,7 @@ pub(super) fn page(session: &Session, item: &str, attempt: u32) -> (String, Vec<
         blocks.extend(feedback(lesson, explain, question, tried, attempt));
     }
     let heading = match attempt {
-        2 => format!("{}: second try", explain.title.text),
+        2 => format!("{} (second try)", explain.title.text),
         _ => explain.title.text.clone(),
     };
     (heading, blocks)
@@ -199,7 +199,12 @@ fn headline(explain: &Explain, tried: &Try, attempt: u32) -> Block {
         Verdict::Partial => (
             Tone::Near,
             "Part of it",
-            format!("{} of {of} points are there.", capital(count(met))),
+            format!(
+                "{} of {} points {} there.",
+                capital(&count(met)),
+                count(of),
+                if met == 1 { "is" } else { "are" }
+            ),
         ),
         Verdict::Fail | Verdict::Unsure => (
             Tone::Bad,
@@ -268,7 +273,7 @@ fn missing(lesson: &Lesson, explain: &Explain, tried: &Try) -> Vec<Block> {
         let points = if silent == 1 { "point" } else { "points" };
         items.push(vec![text(format!(
             "{}{more} {points} that the question asks for.",
-            capital(count(silent))
+            capital(&count(silent))
         ))]);
     }
     if items.is_empty() {
@@ -284,18 +289,11 @@ fn missing(lesson: &Lesson, explain: &Explain, tried: &Try) -> Vec<Block> {
 }
 
 /// Small numbers as words.
-fn count(n: usize) -> String {
+pub(super) fn count(n: usize) -> String {
     const WORDS: [&str; 7] = ["none", "one", "two", "three", "four", "five", "six"];
     WORDS
         .get(n)
         .map_or_else(|| n.to_string(), |w| (*w).to_owned())
-}
-
-fn capital(word: String) -> String {
-    let mut chars = word.chars();
-    chars.next().map_or_else(String::new, |first| {
-        first.to_uppercase().chain(chars).collect()
-    })
 }
 
 /// "a", "a and b", "a, b and c".

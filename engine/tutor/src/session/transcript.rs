@@ -1,6 +1,6 @@
 //! A lesson as it was taught, as Markdown: what was shown, asked, answered and judged.
 
-use super::{Event, Session, Start};
+use super::{Event, Session, Start, show_problem};
 use crate::lesson::Lesson;
 use crate::prose::{Block, Inline, PlotView, TableView, Tone};
 use crate::record::Record;
@@ -55,6 +55,9 @@ pub fn transcript(lesson: &Arc<Lesson>, record: Option<&Record>) -> String {
         }
         for block in &blocks {
             write_block(&mut out, block);
+        }
+        for block in show_problem::still_asked(&session, screen) {
+            write_block(&mut out, &block);
         }
         if session.skipped.contains(&screen.to_string()) {
             line(&mut out, "*Left out.*");
