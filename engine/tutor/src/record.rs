@@ -51,7 +51,7 @@ pub struct Header {
 pub struct Entry {
     /// When, RFC 3339.
     pub at: String,
-    /// Milliseconds since the entry before, as the app measured them.
+    /// Milliseconds since the entry before, as the app measured them; at most `i64::MAX`.
     pub took_ms: u64,
     /// What.
     pub event: Event,
@@ -120,7 +120,9 @@ impl Record {
         if let Event::Finished { .. } = event {
             self.header.finished = Some(at.to_owned());
         }
-        let mut took_ms = took_ms;
+        // TOML's integers end there.
+        let most = i64::MAX as u64;
+        let mut took_ms = took_ms.min(most);
         if let (
             Some(Entry {
                 event: Event::Draft { item: before, .. },
@@ -131,7 +133,7 @@ impl Record {
         ) = (self.entries.last(), &event)
             && before == item
         {
-            took_ms = took_ms.saturating_add(*took_before);
+            took_ms = took_ms.saturating_add(*took_before).min(most);
             self.entries.pop();
         }
         self.entries.push(Entry {

@@ -134,6 +134,16 @@ fn drafts_replace_each_other() {
     assert_eq!(kept, [(3, draft("a", "D is")), (4, draft("b", "other"))]);
 }
 
+#[test]
+fn no_wait_is_too_long_for_toml() {
+    let mut record = empty();
+    for text in ["a", "b"] {
+        let (item, text) = ("a".into(), text.into());
+        record.push(STARTED, u64::MAX, Event::Draft { item, text });
+    }
+    assert_eq!(Record::from_toml(&record.to_toml()), Ok(record));
+}
+
 #[track_caller]
 fn refuses(text: &str, line: usize, column: usize, says: &str) {
     let error = Record::from_toml(text).expect_err("must be refused");
