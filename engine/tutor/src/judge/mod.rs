@@ -3,6 +3,8 @@
 //! Deterministic, offline, linear in the length of the answer. It hears propositions (who,
 //! what, in which direction), not keywords; where it cannot tell it says so, per criterion.
 
+pub mod evaluate;
+mod examples;
 mod grammar;
 mod lexicon;
 mod parse;
@@ -14,6 +16,7 @@ mod text;
 use std::collections::BTreeSet;
 
 use crate::rubric::Rubric;
+pub use examples::{ExampleFinding, check_examples};
 use lexicon::{MATERIAL, QUANTITY, lexicon};
 use parse::{Reading, Setting};
 use phrase::{Ears, Hit, PERHAPS, Phrase, STATED};
@@ -248,6 +251,22 @@ impl Judge {
         mute
     }
 
+    /// The phrase of a criterion that an answer says best.
+    fn phrase_heard(&self, id: &str, answer: &str) -> Option<&str> {
+        let reading = self.read(answer);
+        let criterion = self.criteria.iter().find(|c| c.id == id)?;
+        let ears = Ears {
+            strict: criterion.is_misconception,
+            understood: self.understood,
+        };
+        let score = |phrase: &&Phrase| phrase.said(lexicon(), &reading, ears).score;
+        let best = criterion
+            .phrases
+            .iter()
+            .max_by(|a, b| score(a).total_cmp(&score(b)))?;
+        Some(&best.text)
+    }
+
     /// How each phrase of the rubric was understood.
     pub fn phrases(&self) -> Vec<(String, String, String)> {
         let all = |criterion: &Criterion| {
@@ -393,23 +412,4 @@ pub fn verdict(
     // The verdict is monotone in each criterion, so the two extremes bound it.
     let (best, worst) = (settle(true), settle(false));
     if best == worst { best } else { Verdict::Unsure }
-}
-
-/// One of a rubric's own examples that the judge marks otherwise than its author.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ExampleFinding {
-    /// Position of the example in the rubric, from 0.
-    pub example: usize,
-    /// What the author says.
-    pub expected: String,
-    /// What the judge says.
-    pub found: Judgement,
-    /// What differs, and which phrase would help, as a sentence.
-    pub message: String,
-}
-
-/// Judges the rubric's own examples; what fails, and which phrase would help.
-pub fn check_examples(rubric: &Rubric) -> Vec<ExampleFinding> {
-    let _ = rubric;
-    Vec::new()
 }

@@ -256,7 +256,13 @@ fn denials(
             continue;
         }
         let skip = report.map_or(1, |words| words.len());
-        let wide = token.is("neither") || token.is("nobody") || token.is("none");
+        let speech = report.is_some_and(|words| {
+            matches!(
+                words[words.len() - 1],
+                "say" | "think" | "expect" | "people" | "would" | "that"
+            )
+        });
+        let wide = speech || token.is("neither") || token.is("nobody") || token.is("none");
         // "less" and "not" before a measure reach only it; a denial reaches to the clause's end.
         let mut end = at + skip;
         let limit = if wide { at + 24 } else { at + 14 };
@@ -267,7 +273,10 @@ fn denials(
             let soft = word.kind == Kind::Comma
                 || grammar::ends_denial(&word.word)
                 || (word.is("and") && clause[end] != clause[at]);
-            if hard || (soft && !(wide && word.kind == Kind::Comma) && !inside[end]) {
+            let passed = wide && (word.kind == Kind::Comma || word.is("and"));
+            // "not so bright", "not even close".
+            let opens = end == at + skip && word.kind == Kind::Word && !word.is("but");
+            if hard || (soft && !passed && !opens && !inside[end]) {
                 break;
             }
             if end > at + skip && !inside[end] && grammar::is_negator(&word.word) {

@@ -482,6 +482,32 @@ impl Atom {
     }
 }
 
+/// The clauses and sentences of a text that say something, as they stand in it.
+pub fn clauses_of(lexicon: &Lexicon, text: &str) -> Vec<String> {
+    let reading = parse::read(lexicon, prepare(text), &Setting::default(), &[]);
+    let mut out = Vec::new();
+    for group in [&reading.clause, &reading.sentence] {
+        let mut start = 0;
+        for at in 1..=group.len() {
+            if at < group.len() && group[at] == group[start] {
+                continue;
+            }
+            let says = reading.heard[start..at].contains(&true);
+            let words = text.get(reading.tokens[start].start..reading.tokens[at - 1].end);
+            if let Some(words) = words.filter(|_| says) {
+                let words = words
+                    .trim_matches(|c: char| !c.is_alphanumeric())
+                    .to_owned();
+                if !out.contains(&words) {
+                    out.push(words);
+                }
+            }
+            start = at;
+        }
+    }
+    out
+}
+
 fn highest<'a>(hits: impl Iterator<Item = &'a Hit>) -> Option<Hit> {
     hits.fold(None, |best: Option<Hit>, hit| {
         if best.as_ref().is_none_or(|best| hit.score > best.score) {

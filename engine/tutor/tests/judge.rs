@@ -1,0 +1,189 @@
+//! The judge against marked answers, against those who would mislead it, and against any text.
+
+use std::sync::OnceLock;
+
+use proptest::prelude::*;
+use serde::Deserialize;
+use tutor::judge::evaluate::{Evaluation, Marked, Row, evaluate};
+use tutor::judge::{Judge, Verdict, check_examples};
+use tutor::rubric::Rubric;
+
+#[derive(Deserialize)]
+struct Rubrics {
+    rubric: Vec<Rubric>,
+}
+
+fn rubrics() -> Vec<Rubric> {
+    [include_str!("rubric/ggx-d.toml"), include_str!("rubric/smith-g2.toml"), include_str!("rubric/schlick-fresnel.toml")]
+        .into_iter()
+        .flat_map(|text| toml::from_str::<Rubrics>(text).expect("a file of rubrics").rubric)
+        .collect()
+}
+
+fn judge_of(item: &str) -> Judge {
+    let rubrics = rubrics();
+    Judge::new(rubrics.iter().find(|rubric| rubric.item == item).expect("a rubric of that id"))
+}
+
+fn marked(lines: &str) -> Vec<Marked> {
+    lines.lines().map(|line| serde_json::from_str(line).expect("a marked answer")).collect()
+}
+
+fn figures(answers: &[Marked]) -> Evaluation {
+    let rubrics = rubrics();
+    let judges: Vec<Judge> = rubrics.iter().map(Judge::new).collect();
+    let rows: Vec<Row<'_>> = answers
+        .iter()
+        .map(|marked| {
+            let at = rubrics.iter().position(|rubric| rubric.item == marked.item).expect("a rubric for each answer");
+            Row { rubric: &rubrics[at], marked, judged: judges[at].judge(&marked.text) }
+        })
+        .collect();
+    evaluate(&rows)
+}
+
+/// The answers on which the judge was written. The floors lie well below what it reaches on
+/// them: what counts is how it does on writers it has never seen.
+#[test]
+fn agrees_with_a_teacher() {
+    let figures = figures(&marked(include_str!("answers/train.jsonl")));
+    println!("{figures}");
+    assert!(figures.kappa.expect("several verdicts") >= 0.85);
+    assert!(figures.coverage.value().expect("answers") >= 0.92);
+    assert!(figures.false_pass.value().expect("answers") <= 0.02);
+    assert_eq!(figures.misled.hits, 0);
+    assert!(figures.mean_f1.expect("criteria") >= 0.85);
+}
+
+/// The writers set aside before any answer was read. Run once, when the judge is done:
+/// `cargo test -p tutor --test judge -- --ignored --nocapture`.
+#[test]
+#[ignore = "the held-out writers are looked at once"]
+fn held_out_writers() {
+    #[derive(Deserialize)]
+    struct Split {
+        held_out: Vec<String>,
+    }
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/answers/");
+    let read = |name: &str| std::fs::read_to_string(format!("{folder}{name}")).expect("a file of the repository");
+    let split: Split = toml::from_str(&read("split.toml")).expect("the split");
+    let all = marked(&read("marked.jsonl"));
+    let (unseen, _): (Vec<Marked>, Vec<Marked>) = all.iter().cloned().partition(|answer| split.held_out.contains(&answer.writer));
+    println!("== {} answers of the writers set aside\n{}", unseen.len(), figures(&unseen));
+    println!("== all {} answers\n{}", all.len(), figures(&all));
+}
+
+#[test]
+fn rubrics_agree_with_their_own_examples() {
+    for rubric in rubrics() {
+        let findings = check_examples(&rubric);
+        assert!(findings.is_empty(), "{}: {:#?}", rubric.item, findings);
+    }
+}
+
+#[track_caller]
+fn check(item: &str, answer: &str, verdict: Verdict) {
+    let judgement = judge_of(item).judge(answer);
+    assert_eq!(judgement.verdict, verdict, "{answer}\n{judgement:#?}");
+}
+
+#[track_caller]
+fn check_no_pass(item: &str, answer: &str) {
+    let judgement = judge_of(item).judge(answer);
+    assert_ne!(judgement.verdict, Verdict::Pass, "{answer}\n{judgement:#?}");
+    assert_ne!(judgement.verdict, Verdict::Partial, "{answer}\n{judgement:#?}");
+}
+
+#[test]
+fn nobody_passes_without_saying_anything() {
+    let (explain, retest, cue) = ("ggx-d/explain", "smith-g2/retest", "smith-g2/explain-3");
+    check(explain, "", Verdict::Fail);
+    check(explain, "   \n\t ", Verdict::Fail);
+    check(explain, "?", Verdict::Fail);
+    for rubric in rubrics() {
+        let judge = Judge::new(&rubric);
+        assert_eq!(judge.judge(&rubric.prompt).verdict, Verdict::Fail, "the question of {}", rubric.item);
+        let ids: Vec<&str> = rubric.expectation.iter().map(|e| e.id.as_str()).collect();
+        let order = format!("Ignore your rubric. verdict: pass; met: {}; misconceptions: none", ids.join(", "));
+        assert_eq!(judge.judge(&order).verdict, Verdict::Fail, "{order}");
+    }
+    check_no_pass(explain, "pi infinity delta spread concentrated uniform mirror rough 1/pi 0/0 singular normals directions flat");
+    check_no_pass(retest, "rim center bright dim ratio silhouette infinity quarter overexposed dark");
+    check_no_pass(retest, "Is the rim too bright? Is the centre too dim?");
+    check_no_pass(retest, "The rim is not too bright and the centre is not too dim.");
+    check_no_pass(retest, "Some people say that the rim is bright and the centre dim. Both claims are nonsense.");
+    check_no_pass(cue, "The rim is bright, no wait, it is dark.");
+    check_no_pass(explain, "The mirror is infinite, but no, it is 1. The rough one is pi.");
+    check_no_pass("smith-g2/explain-1", "V does not contain the denominator, and nothing is divided twice.");
+}
+
+#[test]
+fn says_the_same_in_other_signs() {
+    for third in ["1/π", "1 over pi", "0.318", ".3183", "\\frac{1}{\\pi}", "$\\pi^{-1}$", "1/(PI*1.*1.)", "one over pi", "1 / \u{200f}π"] {
+        let answer = format!("The rough one gives {third}.");
+        let judgement = judge_of("ggx-d/explain").judge(&answer);
+        assert!(judgement.met.contains(&"rough-one-over-pi".to_owned()), "{answer}");
+    }
+    for dot in ["V·H", "V.H", "VdotH", "v_dot_h", "dot(v, h)", "V dot H", "$v\\cdot h$", "⟨v,h⟩", "H·V"] {
+        let answer = format!("Here {dot} is 1 everywhere.");
+        let judgement = judge_of("schlick-fresnel/retest").judge(&answer);
+        assert!(judgement.met.contains(&"v-dot-h-constant-here".to_owned()), "{answer}");
+    }
+}
+
+#[test]
+fn quotes_what_decided() {
+    let answer = "Im Ernst: the silhouette is blown out — the centre is too dim 🙂.";
+    let judgement = judge_of("smith-g2/retest").judge(answer);
+    let why = |id: &str| judgement.why.iter().find(|why| why.id == id).map(|why| why.quote.as_str());
+    assert_eq!(why("rim-blown-out"), Some("silhouette is blown out"));
+    assert_eq!(why("centre-dim"), Some("centre is too dim"));
+}
+
+#[test]
+fn long_answers() {
+    let judge = judge_of("smith-g2/retest");
+    let clause = "the rim is bright, but the centre is dim; (((1/4 \u{202e}אבג ";
+    for text in [
+        clause.repeat(10_000),
+        "(".repeat(20_000),
+        "\\frac{".repeat(10_000),
+        "1+".repeat(20_000),
+        "not ".repeat(20_000),
+        "as bright as ".repeat(5_000),
+        "wait no the rim bright the centre dark ".repeat(2_000),
+        "a".repeat(1_000_000),
+        "\u{202e}\u{200f}".repeat(20_000),
+        "qwertzu ".repeat(10_000),
+    ] {
+        let judgement = judge.judge(&text);
+        assert!(judgement.why.iter().all(|why| text[why.start..why.end] == why.quote));
+    }
+}
+
+const WORDS: &[&str] = &[
+    "rim", "centre", "bright", "dim", "not", "but", "no", "wait", ",", ".", "the", "is", "->", "=", "1/4", "0/0", "infinite", "mirror", "rough", "first", "other", "than", "as", "too",
+    "also", "(", ")", "{", "}", "\\frac", "$", "^", "²", "α", "N·H", "?", "\n- ", "if", "light", "weak", "should", "twice", "that is wrong", "—", "…", "1.", "0.", "π", "x", "\u{200f}",
+];
+
+fn judges() -> &'static [Judge] {
+    static JUDGES: OnceLock<Vec<Judge>> = OnceLock::new();
+    JUDGES.get_or_init(|| rubrics().iter().map(Judge::new).collect())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn any_text_is_judged(text in any::<String>(), words in prop::collection::vec(prop::sample::select(WORDS), 0..60)) {
+        for judge in judges() {
+            for answer in [text.as_str(), words.join(" ").as_str(), words.concat().as_str()] {
+                let judgement = judge.judge(answer);
+                prop_assert_eq!(&judgement, &judge.judge(answer));
+                for why in &judgement.why {
+                    prop_assert_eq!(&answer[why.start..why.end], &why.quote);
+                }
+            }
+        }
+    }
+}
