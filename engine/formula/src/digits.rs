@@ -1,6 +1,6 @@
 //! Numbers as people print and type them: rounding, significant digits, agreement.
 
-use crate::parse::decimal_comma;
+use crate::answer::decimal_comma;
 
 /// How many digits to show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -171,6 +171,14 @@ impl Dag {
             if !value.finite() {
                 return Err(self.fault(library, id, |id| values[id].to_f64(), inputs));
             }
+            if let Op::Term(term, args) = op {
+                for (param, arg) in term.0.params.iter().zip(args) {
+                    let given = values[*arg].to_f64();
+                    if let Some(message) = impossible(param.name, given) {
+                        return Err(self.told(library, id, *arg, message));
+                    }
+                }
+            }
             values.push(value);
         }
         Ok(values.get(self.root).copied().unwrap_or(R::ZERO))
@@ -243,6 +251,11 @@ impl Dag {
             }
             _ => too_large(),
         };
+        self.told(library, id, blame, message)
+    }
+
+    /// An error about an operation, pointing at another one where that stands in the text.
+    fn told(&self, library: &Library, id: Id, blame: Id, message: String) -> Error {
         let origin = self.origins[id];
         let pointed = self.origins[blame];
         match origin.within {
@@ -266,6 +279,19 @@ impl Dag {
             }
         }
     }
+}
+
+/// Why a function of the core has no business with a value, although it takes it: what is
+/// called a cosine must be one.
+fn impossible(param: &str, value: f64) -> Option<String> {
+    // Room for the rounding of a cosine that was computed in f32.
+    const SLACK: f64 = 1e-5;
+    let cosine = param.contains("_dot_") || param.starts_with("cos_");
+    if cosine && value.abs() > 1.0 + SLACK {
+        return Some(format!("{param} = {} is no cosine", plain(value)));
+    }
+    let width = param == "alpha" || param == "roughness";
+    (width && value < 0.0).then(|| format!("{param} = {} is negative", plain(value)))
 }
 
 impl Library {

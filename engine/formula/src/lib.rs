@@ -22,6 +22,7 @@
 //! This crate must never touch files, the environment, the clock, threads or randomness.
 
 mod algebra;
+mod answer;
 mod builtin;
 mod dag;
 mod digits;
@@ -42,13 +43,14 @@ mod spelling;
 mod substitution;
 mod wgsl;
 
+pub use answer::parse_answer;
 pub use builtin::builtin_names;
 pub use digits::{Digits, agrees_with_printed, format_number, significant_digits};
 pub use error::{Error, Span};
 pub use expr::{Arg, BinaryOp, CompareOp, Expr, Node};
 pub use library::{Definition, Library, MAX_OPERATIONS, Values};
 pub use mutant::{Mutant, MutantKind};
-pub use parse::{MAX_DEPTH, MAX_TEXT, parse, parse_answer};
+pub use parse::{MAX_DEPTH, MAX_TEXT, parse};
 pub use program::{Column, Program, Scratch};
 pub use spelling::{latex_name, unicode_name};
 pub use substitution::Substitution;

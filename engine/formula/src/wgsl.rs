@@ -13,6 +13,10 @@ use crate::pretty::short;
 use crate::scope::{Binding, Callee, Convert, Found, Scope, bind};
 use std::collections::{BTreeMap, BTreeSet};
 
+/// Deepest nesting of parentheses and calls. Readers of WGSL recurse, some with tens of
+/// kilobytes a level: what is deeper would end the program that draws it.
+const MAX_NESTING: usize = 40;
+
 /// A formula in WGSL.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wgsl {
@@ -64,6 +68,7 @@ impl Library {
             prefix,
             parts: Vec::new(),
             extras: BTreeMap::new(),
+            nesting: 0,
         };
         let mut place = Place {
             definition: None,
@@ -111,6 +116,8 @@ struct Writer<'l, 'i> {
     parts: Vec<(String, String)>,
     /// The givens that each definition's function takes.
     extras: BTreeMap<String, Vec<String>>,
+    /// Open parentheses and calls of the function that is being written.
+    nesting: usize,
 }
 
 /// Source and how tightly it binds.
@@ -126,6 +133,18 @@ fn at_least((text, bind): Part, least: u8) -> String {
 
 impl<'l> Writer<'l, '_> {
     fn expr(&mut self, expr: &Expr, place: &mut Place<'l>) -> Result<Part, Error> {
+        self.nesting += 1;
+        if self.nesting > MAX_NESTING {
+            let message = "this is nested too deep for a shader";
+            let help = "give parts of it names of their own";
+            return Err(place.error(Error::new(expr.span, message).help(help)));
+        }
+        let part = self.node(expr, place)?;
+        self.nesting -= 1;
+        Ok(part)
+    }
+
+    fn node(&mut self, expr: &Expr, place: &mut Place<'l>) -> Result<Part, Error> {
         if constant(expr) {
             let value = self.library.eval(expr, &Values::new());
             let value = value.map_err(|error| place.error(error))?;
@@ -153,7 +172,11 @@ impl<'l> Writer<'l, '_> {
                     BinaryOp::Add | BinaryOp::Sub => binding::SUM,
                     _ => binding::PRODUCT,
                 };
+                // A chain stands side by side, not inside one another.
+                let chained = left.node.binding() >= own;
+                self.nesting -= usize::from(chained);
                 let left = at_least(self.expr(left, place)?, own);
+                self.nesting += usize::from(chained);
                 let right = at_least(self.expr(right, place)?, own + 1);
                 Ok((format!("{left} {} {right}", op.symbol()), own))
             }
@@ -296,7 +319,9 @@ impl<'l> Writer<'l, '_> {
             site: Some(site),
             givens: BTreeSet::new(),
         };
+        let outside = std::mem::take(&mut self.nesting);
         let (body, _) = self.expr(&definition.body, &mut place)?;
+        self.nesting = outside;
         let extras: Vec<String> = place.givens.into_iter().collect();
         let params = definition
             .params

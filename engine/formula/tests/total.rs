@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{library, values};
+use common::{library, module, valid, values};
 use formula::{
     Column, Digits, Expr, Library, Scratch, agrees_with_printed, format_number, parse,
     parse_answer, significant_digits,
@@ -35,11 +35,10 @@ fn use_up(library: &Library, expr: &Expr) {
         library.latex(expr),
         library.canonical(expr),
     );
-    let _ = (
-        library.needs(expr),
-        library.uses(expr),
-        library.wgsl(expr, NAMES),
-    );
+    let _ = (library.needs(expr), library.uses(expr));
+    if let Ok(wgsl) = library.wgsl(expr, NAMES) {
+        valid(&module(&[(&wgsl, NAMES)]));
+    }
     for mutant in library.mutants(expr).iter().take(3) {
         let _ = library.eval_mutant(expr, mutant, &given);
         let _ = library.ratio(expr, mutant.edited());

@@ -2,8 +2,8 @@
 
 mod common;
 
-use common::library;
-use formula::{Library, Wgsl, parse};
+use common::{library, module, valid};
+use formula::{Library, parse};
 
 /// Every name a formula of these tests may use.
 const INPUTS: &[&str] = &[
@@ -15,31 +15,6 @@ const INPUTS: &[&str] = &[
     "f0",
     "x",
 ];
-
-#[track_caller]
-fn valid(source: &str) {
-    let module = naga::front::wgsl::parse_str(source)
-        .unwrap_or_else(|error| panic!("{}\n{source}", error.emit_to_string(source)));
-    let flags = naga::valid::ValidationFlags::all();
-    let capabilities = naga::valid::Capabilities::empty();
-    let mut validator = naga::valid::Validator::new(flags, capabilities);
-    if let Err(error) = validator.validate(&module) {
-        panic!("{}\n{source}", error.emit_to_string(source));
-    }
-}
-
-fn module(formulas: &[(&Wgsl, &[&str])]) -> String {
-    let all: Vec<&Wgsl> = formulas.iter().map(|(formula, _)| *formula).collect();
-    let mut source = Wgsl::functions_of(&all);
-    for (index, (formula, inputs)) in formulas.iter().enumerate() {
-        let params: Vec<String> = inputs.iter().map(|name| format!("{name}: f32")).collect();
-        let (params, expr) = (params.join(", "), &formula.expr);
-        source.push_str(&format!(
-            "fn whole{index}({params}) -> f32 {{\n    return {expr};\n}}\n"
-        ));
-    }
-    source
-}
 
 #[track_caller]
 fn check(library: &Library, text: &str, expected: &str) {
@@ -130,6 +105,8 @@ fn what_a_shader_cannot_do_is_refused() {
         "albedo_ggx has no WGSL form: it is an integral",
     );
     refused("y", "unknown name \"y\"");
+    let deep = format!("{}x{}", "sqrt(".repeat(60), ")".repeat(60));
+    refused(&deep, "this is nested too deep for a shader");
 }
 
 #[test]
