@@ -11,6 +11,8 @@ pub(crate) const TERMS: &[Term] = &[
     F_SPHERICAL_GAUSSIAN,
     F_SCHLICK_IOR,
     F_DIELECTRIC,
+    T_DIELECTRIC,
+    T_CONDUCTOR,
     F_CONDUCTOR,
     F_LAZANYI,
 ];
@@ -109,29 +111,83 @@ fn refracted_squared<R: Real>(eta: R, c: R) -> R {
 ///
 /// The differences in the numerators are multiplied out, so that η near 1 keeps its digits:
 /// r_s = (η² − 1)/(c + g)², r_p = (η² − 1)(c² η² − s²)/(η² c + g)².
-/// η = 1 gives 0: there is no interface.
+/// Where more than half is reflected it is 1 − [`t_dielectric`]. η = 1 gives 0: there is no
+/// interface.
 #[inline(always)]
 pub fn f_dielectric<R: Real>(eta: R, v_dot_h: R) -> R {
-    let c = v_dot_h.clamp_unit();
-    let eta = eta
-        .abs()
-        .at_least(lit(1.0 / R::LARGE))
-        .at_most(lit(R::LARGE));
-    let g2 = refracted_squared(eta, c);
-    if g2 < lit(0.0) {
-        return lit(1.0);
+    let refraction = Refraction::new(eta, v_dot_h);
+    let transmitted = refraction.transmitted();
+    if transmitted < lit(0.5) {
+        lit::<R>(1.0) - transmitted
+    } else {
+        refraction.reflected()
     }
-    let d = (eta - lit(1.0)) * (eta + lit(1.0));
-    if d == lit(0.0) {
-        return zero_unless_nan([c]);
+}
+
+/// Exact Fresnel transmittance of a dielectric, 1 − [`f_dielectric`], accurate where little
+/// is transmitted.
+///
+/// T = 2 c g (1/(c + g)² + η²/(η² c + g)²); 0 for total internal reflection.
+#[inline(always)]
+pub fn t_dielectric<R: Real>(eta: R, v_dot_h: R) -> R {
+    let refraction = Refraction::new(eta, v_dot_h);
+    let transmitted = refraction.transmitted();
+    if transmitted < lit(0.5) {
+        transmitted
+    } else {
+        lit::<R>(1.0) - refraction.reflected()
     }
-    let g = g2.sqrt();
-    let eta2 = eta * eta;
-    let (sum_s, sum_p) = (c + g, eta2 * c + g);
-    let brewster = (c * eta).squared() - (lit::<R>(1.0) - c) * (lit::<R>(1.0) + c);
-    let r_s = d / sum_s / sum_s;
-    let r_p = (d / sum_p) * (brewster / sum_p);
-    lit::<R>(0.5) * (r_s * r_s + r_p * r_p)
+}
+
+/// The quantities of a ray that enters a dielectric.
+struct Refraction<R> {
+    eta: R,
+    c: R,
+    /// η cos θ_t, or `None` under total internal reflection.
+    g: Option<R>,
+}
+
+impl<R: Real> Refraction<R> {
+    #[inline(always)]
+    fn new(eta: R, v_dot_h: R) -> Refraction<R> {
+        let c = v_dot_h.clamp_unit();
+        let eta = eta
+            .abs()
+            .at_least(lit(1.0 / R::LARGE))
+            .at_most(lit(R::LARGE));
+        let g2 = refracted_squared(eta, c);
+        Refraction {
+            eta,
+            c,
+            g: if g2 < lit(0.0) { None } else { Some(g2.sqrt()) },
+        }
+    }
+
+    #[inline(always)]
+    fn reflected(&self) -> R {
+        let (one, eta, c) = (lit::<R>(1.0), self.eta, self.c);
+        let Some(g) = self.g else { return one };
+        let d = (eta - one) * (eta + one);
+        if d == lit(0.0) {
+            return zero_unless_nan([c]);
+        }
+        let (sum_s, sum_p) = (c + g, eta * eta * c + g);
+        let brewster = (c * eta).squared() - (one - c) * (one + c);
+        let r_s = d / sum_s / sum_s;
+        let r_p = (d / sum_p) * (brewster / sum_p);
+        lit::<R>(0.5) * (r_s * r_s + r_p * r_p)
+    }
+
+    #[inline(always)]
+    fn transmitted(&self) -> R {
+        let (one, eta, c) = (lit::<R>(1.0), self.eta, self.c);
+        let Some(g) = self.g else { return lit(0.0) };
+        if eta == one {
+            return one + zero_unless_nan([c]);
+        }
+        let (sum_s, sum_p) = (c + g, eta * eta * c + g);
+        lit::<R>(2.0) * ((c / sum_s) * (g / sum_s) + (eta * c / sum_p) * (eta * g / sum_p))
+    }
 }
 
 const ETA: Param = Param {
@@ -162,6 +218,23 @@ const F_DIELECTRIC: Term = entry!(
 }")
 );
 
+const T_DIELECTRIC: Term = entry!(
+    t_dielectric(eta: ETA, v_dot_h: V_DOT_H),
+    symbol: "T_dielectric", latex: r"T_{\mathrm{dielectric}}", cost: 40,
+    doc: "exact Fresnel transmittance of a dielectric, unpolarised, 0 to 1",
+    source: "Fresnel's equations; Cook and Torrance 1982, eq. 15",
+    wgsl: Some("fn lobe_t_dielectric(eta: f32, v_dot_h: f32) -> f32 {
+    let c = clamp(v_dot_h, 0.0, 1.0);
+    let g2 = (eta - 1.0) * (eta + 1.0) + c * c;
+    if (g2 < 0.0) { return 0.0; }
+    if (eta == 1.0) { return 1.0; }
+    let g = sqrt(g2);
+    let s = c + g;
+    let p = eta * eta * c + g;
+    return 2.0 * c * g * (1.0 / (s * s) + eta * eta / (p * p));
+}")
+);
+
 /// Exact Fresnel reflectance of a conductor with complex index n + ik, unpolarised.
 ///
 /// With a² − b² = n² − k² − sin²θ and a b = n k: R_s = ((a − c)² + b²)/((a + c)² + b²),
@@ -172,7 +245,32 @@ const F_DIELECTRIC: Term = entry!(
 /// differences of squares.
 #[inline(always)]
 pub fn f_conductor<R: Real>(n: R, k: R, v_dot_h: R) -> R {
-    let [zero, one, two] = [lit::<R>(0.0), lit(1.0), lit(2.0)];
+    let (reflected, transmitted) = conductor(n, k, v_dot_h);
+    if transmitted < lit(0.5) {
+        lit::<R>(1.0) - transmitted
+    } else {
+        reflected
+    }
+}
+
+/// Share of the light that a conductor absorbs, 1 − [`f_conductor`], accurate where it is
+/// small.
+///
+/// 1 − R_s = 4 a c/((a + c)² + b²), and 1 − R_p = (1 − R_s) + R_s · 4 a c s²/((a c + s²)² + b² c²).
+#[inline(always)]
+pub fn t_conductor<R: Real>(n: R, k: R, v_dot_h: R) -> R {
+    let (reflected, transmitted) = conductor(n, k, v_dot_h);
+    if transmitted < lit(0.5) {
+        transmitted
+    } else {
+        lit::<R>(1.0) - reflected
+    }
+}
+
+/// Reflectance and its complement.
+#[inline(always)]
+fn conductor<R: Real>(n: R, k: R, v_dot_h: R) -> (R, R) {
+    let [zero, half, one, two] = [lit::<R>(0.0), lit(0.5), lit(1.0), lit(2.0)];
     let c = v_dot_h.clamp_unit();
     let (n, k) = (
         n.abs().at_most(lit(R::LARGE)),
@@ -187,7 +285,7 @@ pub fn f_conductor<R: Real>(n: R, k: R, v_dot_h: R) -> R {
     let (z, z_low) = y.two_sum(-one);
     let t0 = z + (z_low + (y_low + (x_low + (nn_low + (cc_low - kk_low)))));
     let nk = n * k;
-    let large = lit::<R>(0.5) * (t0.hypot(two * nk) + t0.abs());
+    let large = half * (t0.hypot(two * nk) + t0.abs());
     let small = if large > zero {
         nk * (nk / large)
     } else {
@@ -202,8 +300,7 @@ pub fn f_conductor<R: Real>(n: R, k: R, v_dot_h: R) -> R {
     // a − c as (a² − c²)/(a + c), and a c − s² likewise, where they cancel and b is small.
     let b2_k2 = b2 - k * k;
     let cancels = |difference: R, sum: R| t0 > zero && difference.abs() < lit::<R>(0.25) * sum;
-    let plus = a + c;
-    let minus = a - c;
+    let (plus, minus) = (a + c, a - c);
     let minus = if cancels(minus, plus) {
         ((n - one) * (n + one) + b2_k2) / plus
     } else {
@@ -211,11 +308,10 @@ pub fn f_conductor<R: Real>(n: R, k: R, v_dot_h: R) -> R {
     };
     let den_s = plus * plus + b2;
     if den_s == zero {
-        return zero;
+        // Grazing, and no interface.
+        return (zero, one);
     }
-    let r_s = (minus * minus + b2) / den_s;
-    let sum = a * c + s2;
-    let difference = a * c - s2;
+    let (sum, difference) = (a * c + s2, a * c - s2);
     let difference = if cancels(difference, sum) {
         (c * c * (n * n + b2_k2) - s2) / sum
     } else {
@@ -223,12 +319,18 @@ pub fn f_conductor<R: Real>(n: R, k: R, v_dot_h: R) -> R {
     };
     let bc2 = b2 * (c * c);
     let den_p = sum * sum + bc2;
-    let p = if den_p > zero {
-        (difference * difference + bc2) / den_p
+    let r_s = (minus * minus + b2) / den_s;
+    let t_s = lit::<R>(4.0) * (a * c) / den_s;
+    // R_p/R_s and its complement.
+    let (p, one_minus_p) = if den_p > zero {
+        (
+            (difference * difference + bc2) / den_p,
+            lit::<R>(4.0) * (a * c) * s2 / den_p,
+        )
     } else {
-        one
+        (one, zero)
     };
-    lit::<R>(0.5) * r_s * (one + p)
+    (half * r_s * (one + p), t_s + half * r_s * one_minus_p)
 }
 
 const N: Param = Param {
@@ -265,6 +367,17 @@ const F_CONDUCTOR: Term = entry!(
     let r_p = ((a * c - s2) * (a * c - s2) + bc2) / ((a * c + s2) * (a * c + s2) + bc2);
     return 0.5 * r_s * (1.0 + r_p);
 }")
+);
+
+const T_CONDUCTOR: Term = entry!(
+    t_conductor(n: N, k: K, v_dot_h: V_DOT_H),
+    symbol: "T_conductor", latex: r"T_{\mathrm{conductor}}", cost: 90,
+    doc: "share of the light that a conductor with index n + ik absorbs, unpolarised, 0 to 1",
+    source: "Born and Wolf, section 14.2; Lagarde 2013",
+    wgsl: Some("fn lobe_t_conductor(n: f32, k: f32, v_dot_h: f32) -> f32 {
+    return 1.0 - lobe_f_conductor(n, k, v_dot_h);
+}"),
+    needs: ["f_conductor"]
 );
 
 /// Lazányi's correction for metals: F = f0 + (1 − f0)(1 − V·H)⁵ − a V·H (1 − V·H)⁶.
