@@ -8,6 +8,7 @@ use crate::backend::{CanvasBackend, EIGHTHS};
 use crate::canvas::{Align, Canvas, Style, png};
 use crate::colour::{LIGHT, Theme};
 use crate::error::Error;
+use crate::label::Taken;
 use crate::pen::{Frame, Pen, runs};
 use crate::text::{self, Weight};
 use plotters::coord::Shift;
@@ -209,6 +210,7 @@ impl Chart<'_> {
         self.draw_legend(&pen, &legend_rows, 0.6 * em + title)?;
         self.draw_grid(&pen, frame, (&x_axis, &x_ticks), (&y_axis, &y_ticks))?;
         self.draw_bands(&pen, frame, &x_axis)?;
+        let mut taken = Taken::default();
         for (index, (_, points)) in self.spec.series.iter().enumerate() {
             let colour = self.theme.series[index % self.theme.series.len()];
             let width = self
@@ -219,9 +221,10 @@ impl Chart<'_> {
                 .unwrap_or(0.17);
             for run in runs(points, &x_axis, &y_axis, frame) {
                 pen.path(&run, width * em, colour, 1.0)?;
+                taken.curve(&run, 0.25 * em);
             }
         }
-        self.draw_marks(&pen, frame, &x_axis, &y_axis)?;
+        self.draw_marks(&pen, frame, (&x_axis, &y_axis), &mut taken)?;
         let middle = (frame.left + frame.right) / 2.0;
         pen.text(
             middle,
@@ -410,8 +413,8 @@ impl Chart<'_> {
         &self,
         pen: &Pen<'_, B>,
         frame: Frame,
-        x_axis: &Axis,
-        y_axis: &Axis,
+        (x_axis, y_axis): (&Axis, &Axis),
+        taken: &mut Taken,
     ) -> Result<(), Error> {
         let em = self.em;
         for (label, x, y) in &self.spec.marks {
@@ -421,23 +424,14 @@ impl Chart<'_> {
             let (x, y) = (frame.x(x_axis, *x), frame.y(y_axis, *y));
             pen.disc(x, y, 0.42 * em, self.theme.panel)?;
             pen.disc(x, y, 0.3 * em, self.theme.ink)?;
+            if label.is_empty() {
+                continue;
+            }
             let width = f64::from(text::width(label, em as f32, Weight::Regular));
-            let (start, align) = if x + width + em > frame.right {
-                (x - 0.7 * em, Align::Right)
-            } else {
-                (x + 0.7 * em, Align::Left)
-            };
-            let base = if y - 1.4 * em < frame.top {
-                y + 1.3 * em
-            } else {
-                y - 0.5 * em
-            };
-            pen.text(
-                start,
-                base,
-                Style::new(em as f32, Weight::Regular, align, self.theme.ink),
-                label,
-            )?;
+            let bounds = (frame.left, frame.top, frame.right, frame.bottom);
+            let place = taken.place((x, y), width, em, bounds);
+            let style = Style::new(em as f32, Weight::Regular, Align::Left, self.theme.ink);
+            pen.text(place.0, place.3 - 0.2 * em, style, label)?;
         }
         Ok(())
     }

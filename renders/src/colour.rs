@@ -13,6 +13,32 @@ pub fn srgb_encode(linear: f64) -> f64 {
     }
 }
 
+/// The sRGB curve as a table, for the many pixels of a panel: within a quarter of a level.
+pub struct EncodeTable(Vec<f32>);
+
+impl EncodeTable {
+    const STEPS: usize = 1 << 14;
+
+    /// Computes the table, which costs as much as some thousand pixels.
+    pub fn new() -> Self {
+        Self(
+            (0..=Self::STEPS)
+                .map(|i| srgb_encode(i as f64 / Self::STEPS as f64) as f32)
+                .collect(),
+        )
+    }
+
+    /// The signal in [0, 1]; NaN gives 0.
+    pub fn signal(&self, linear: f32) -> f32 {
+        self.0[(linear.clamp(0.0, 1.0) * Self::STEPS as f32 + 0.5) as usize]
+    }
+
+    /// The signal as a byte.
+    pub fn byte(&self, linear: f32) -> u8 {
+        (self.signal(linear) * 255.0 + 0.5) as u8
+    }
+}
+
 /// The sRGB signal of a byte to linear radiance in [0, 1].
 pub fn srgb_decode(byte: u8) -> f64 {
     let signal = f64::from(byte) / 255.0;
@@ -62,6 +88,25 @@ pub fn diverging(log2_ratio: f64) -> Rgb {
     let (low, from) = STOPS[upper - 1];
     let (high, to) = STOPS[upper];
     mix(from, to, (at - low) / (high - low))
+}
+
+/// [`diverging`] as a table.
+pub struct DivergingTable(Vec<Rgb>);
+
+impl DivergingTable {
+    const STEPS: usize = 1 << 10;
+
+    /// Computes the table.
+    pub fn new() -> Self {
+        let stops = |i: usize| (2.0 * i as f64 / Self::STEPS as f64 - 1.0) * RATIO_STOPS;
+        Self((0..=Self::STEPS).map(|i| diverging(stops(i))).collect())
+    }
+
+    /// The colour of a ratio in stops.
+    pub fn colour(&self, stops: f32) -> Rgb {
+        let at = (stops / RATIO_STOPS as f32 + 1.0) / 2.0;
+        self.0[(at.clamp(0.0, 1.0) * Self::STEPS as f32 + 0.5) as usize]
+    }
 }
 
 /// `from` where `t` is 0, `to` where it is 1; mixed in the signal.

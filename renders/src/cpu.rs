@@ -61,16 +61,13 @@ impl Cpu {
         };
         for start in (0..count).step_by(BLOCK) {
             let range = start..(start + BLOCK).min(count);
-            let columns: Vec<Column<'_, f64>> = [
-                &samples.n_dot_l,
-                &samples.n_dot_v,
-                &samples.n_dot_h,
-                &samples.cos_phi,
-            ]
-            .into_iter()
-            .map(|column| Column::Varying(&column[range.clone()]))
-            .chain(self.constants.iter().map(|&value| Column::Uniform(value)))
-            .collect();
+            let columns: Vec<Column<'_, f64>> = samples
+                .columns(range.start, range.end)
+                .into_iter()
+                // A column that is not there is one that no formula asks for.
+                .map(|column| column.map_or(Column::Uniform(0.0), Column::Varying))
+                .chain(self.constants.iter().map(|&value| Column::Uniform(value)))
+                .collect();
             SCRATCH.with_borrow_mut(|scratch| {
                 self.right
                     .eval_block_f64(&columns, &mut right[range.clone()], scratch);

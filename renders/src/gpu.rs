@@ -125,16 +125,9 @@ impl Gpu {
         start: usize,
         end: usize,
     ) -> Result<Vec<[f32; 2]>, Error> {
-        let points: Vec<[f32; 4]> = (start..end)
-            .map(|i| {
-                [
-                    samples.n_dot_l[i],
-                    samples.n_dot_v[i],
-                    samples.n_dot_h[i],
-                    samples.cos_phi[i],
-                ]
-                .map(|v| v as f32)
-            })
+        let columns = samples.columns(start, end);
+        let points: Vec<[f32; 4]> = (0..end - start)
+            .map(|i| columns.map(|column| column.map_or(0.0, |values| values[i] as f32)))
             .collect();
         let bytes: &[u8] = bytemuck::cast_slice(&points);
         let result_size = (points.len() * size_of::<[f32; 2]>()) as u64;

@@ -18,6 +18,7 @@ mod contour;
 mod cpu;
 mod error;
 mod gpu;
+mod label;
 mod pen;
 mod picture;
 mod plan;
@@ -263,6 +264,7 @@ fn draw_panels(
     let panel = Panel {
         size: options.size as usize,
         geometry: fingerprint.scene.geometry(),
+        azimuth: plan.azimuth,
         everywhere: !plan.lens,
     };
     let job = Job {

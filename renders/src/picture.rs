@@ -2,7 +2,9 @@
 
 use crate::canvas::{Align, Canvas, Style};
 use crate::chart::{Chart, PlotSpec};
-use crate::colour::{DARK, RATIO_STOPS, Rgb, diverging, mix, srgb_decode, srgb_encode, to_byte};
+use crate::colour::{
+    DARK, DivergingTable, EncodeTable, RATIO_STOPS, Rgb, diverging, mix, srgb_decode,
+};
 use crate::contour;
 use crate::profile::{HIGHLIGHT_SHARE, Profile};
 use crate::sample::Panel;
@@ -146,29 +148,37 @@ pub(crate) fn full(
 /// Paints the three panels with their left edges at `columns`.
 fn panels(canvas: &mut Canvas, panel: &Panel, shaded: &Shaded, columns: [usize; 3], top: usize) {
     let size = panel.size;
-    let encode = EncodeTable::new();
-    let surround = DARK.panel.map(srgb_decode);
+    let (encode, diverging) = (EncodeTable::new(), DivergingTable::new());
+    let surround = DARK.panel.map(|byte| srgb_decode(byte) as f32);
     for row in 0..size {
         for column in 0..size {
             let index = row * size + column;
             let cover = panel.cover(column, row);
-            for (left, value) in [
-                (columns[0], shaded.right_seen[index]),
-                (columns[1], shaded.wrong_seen[index]),
-            ] {
-                let colour = if cover == 0.0 {
-                    DARK.panel
-                } else {
-                    surround.map(|behind| encode.byte(f64::from(value) + (1.0 - cover) * behind))
-                };
+            let behind = 1.0 - cover as f32;
+            let shown = |seen: f32| match cover {
+                0.0 => DARK.panel,
+                1.0 => [encode.byte(seen); 3],
+                _ => surround.map(|paper| encode.byte(seen + behind * paper)),
+            };
+            let lit = f64::from(shaded.lit[index]);
+            let ratio = match lit {
+                _ if cover == 0.0 => DARK.panel,
+                0.0 => mix(DARK.panel, UNLIT, cover),
+                1.0 => diverging.colour(shaded.stops[index]),
+                _ => mix(
+                    mix(DARK.panel, UNLIT, cover),
+                    diverging.colour(shaded.stops[index]),
+                    lit,
+                ),
+            };
+            let colours = [
+                shown(shaded.right_seen[index]),
+                shown(shaded.wrong_seen[index]),
+                ratio,
+            ];
+            for (left, colour) in columns.into_iter().zip(colours) {
                 canvas.set((left + column) as i32, (top + row) as i32, colour);
             }
-            let lit = f64::from(shaded.lit[index]);
-            let mut colour = mix(DARK.panel, UNLIT, cover);
-            if lit > 0.0 {
-                colour = mix(colour, diverging(f64::from(shaded.stops[index])), lit);
-            }
-            canvas.set((columns[2] + column) as i32, (top + row) as i32, colour);
         }
     }
     let offset = (columns[2] as f32, top as f32);
@@ -177,25 +187,6 @@ fn panels(canvas: &mut Canvas, panel: &Panel, shaded: &Shaded, columns: [usize; 
         .map(|ends| ends.map(|(x, y)| (x + offset.0, y + offset.1)))
         .collect();
     canvas.strokes(&contour, (size as f32 / 180.0).max(1.0), [24, 24, 28], 1.0);
-}
-
-/// The sRGB curve for the many pixels of a panel: exact to a quarter of a level.
-struct EncodeTable(Vec<u8>);
-
-impl EncodeTable {
-    const STEPS: usize = 1 << 14;
-
-    fn new() -> Self {
-        Self(
-            (0..=Self::STEPS)
-                .map(|i| to_byte(srgb_encode(i as f64 / Self::STEPS as f64)))
-                .collect(),
-        )
-    }
-
-    fn byte(&self, linear: f64) -> u8 {
-        self.0[(linear.clamp(0.0, 1.0) * Self::STEPS as f64 + 0.5) as usize]
-    }
 }
 
 fn headings(canvas: &mut Canvas, layout: &Layout, fingerprint: &Fingerprint<'_>, top: f32) {

@@ -1,7 +1,7 @@
 //! What of a picture must be computed: decided from the formulas, before anything is.
 
 use crate::Fingerprint;
-use crate::scene::VARYING;
+use crate::scene::{AZIMUTH, VARYING};
 use formula::{Expr, Node, Program};
 use std::collections::BTreeSet;
 
@@ -12,6 +12,8 @@ pub(crate) struct Plan {
     pub mirror: bool,
     /// Shade only pixels in the lit and visible part of the sphere.
     pub lens: bool,
+    /// Fill the column of the azimuth.
+    pub azimuth: bool,
     /// `wrong / right` after what both have in common has cancelled: the wrong value is then the
     /// right one times this.
     pub ratio: Option<Expr>,
@@ -29,6 +31,7 @@ impl Plan {
         let (right, wrong) = (calls(fingerprint.right), calls(fingerprint.wrong));
         Self {
             evaluated: right.union(&wrong).cloned().collect(),
+            azimuth: true,
             explain: vec!["nothing is skipped: every pixel, every term".to_owned()],
             ..Self::default()
         }
@@ -50,6 +53,9 @@ impl Plan {
             lens: true,
             ..Self::default()
         };
+        plan.azimuth = [right, wrong]
+            .iter()
+            .any(|expr| library.needs(expr).contains(AZIMUTH));
         plan.explain.push(
             "pixels that are outside the sphere or that no light reaches are not shaded".to_owned(),
         );

@@ -48,7 +48,7 @@ pub(crate) fn at_angles(
     angles: &[f64],
 ) -> Vec<ProfilePoint> {
     let geometry = fingerprint.scene.geometry();
-    let samples = Samples::of(angles.iter().map(|&psi| geometry.equator(psi)));
+    let samples = Samples::of(&geometry, angles.iter().map(|&psi| geometry.equator(psi)));
     let values = cpu.evaluate(&samples);
     angles
         .iter()

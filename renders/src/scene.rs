@@ -19,15 +19,17 @@ pub struct Scene {
 }
 
 /// The quantities that change from point to point, in the order of the columns.
-pub(crate) const VARYING: [&str; 4] = ["n_dot_l", "n_dot_v", "n_dot_h", "cos_phi"];
+pub(crate) const VARYING: [&str; 4] = ["n_dot_l", "n_dot_v", "n_dot_h", AZIMUTH];
 
-/// One shaded point: the values of [`VARYING`].
+/// The azimuth between light and view: its column is filled only where a formula needs it.
+pub(crate) const AZIMUTH: &str = "cos_phi";
+
+/// One shaded point: the values of [`VARYING`] but the last, which few formulas need.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Point {
     pub n_dot_l: f64,
     pub n_dot_v: f64,
     pub n_dot_h: f64,
-    pub cos_phi: f64,
 }
 
 /// The directions of a scene, prepared once for all points.
@@ -73,6 +75,16 @@ impl Scene {
 }
 
 impl Geometry {
+    /// The stretch of a line at height `y` (in radii) that is lit and seen: from the terminator
+    /// to the rim. Empty, with both ends NaN, where the line misses the sphere.
+    ///
+    /// On the line, x = ρ sin t and z = ρ cos t with ρ² = 1 − y², so that
+    /// N·L = ρ cos(t − light): positive beyond t = light − 90°.
+    pub fn lit_stretch(&self, y: f64) -> (f64, f64) {
+        let rho = (1.0 - y * y).sqrt();
+        (-rho * self.cos_light, rho)
+    }
+
     /// The point of the sphere seen at (`x`, `y`) in units of its radius; `None` off the disc or
     /// where the light does not reach.
     pub fn lit(&self, x: f64, y: f64) -> Option<Point> {
@@ -91,20 +103,25 @@ impl Geometry {
         self.at(psi.sin(), psi.cos())
     }
 
+    #[inline]
     fn at(&self, x: f64, z: f64) -> Point {
-        let n_dot_l = x * self.sin_light + z * self.cos_light;
-        let n_dot_h = (x * self.sin_half + z * self.cos_half).min(1.0);
-        let sines = ((1.0 - n_dot_l * n_dot_l) * (1.0 - z * z)).max(0.0).sqrt();
-        let cos_phi = if sines > 0.0 {
-            ((self.cos_light - n_dot_l * z) / sines).clamp(-1.0, 1.0)
+        Point {
+            n_dot_l: x * self.sin_light + z * self.cos_light,
+            n_dot_v: z,
+            n_dot_h: (x * self.sin_half + z * self.cos_half).min(1.0),
+        }
+    }
+
+    /// Cosine of the azimuth between light and view around the normal; 1 where either stands on it.
+    pub fn cos_phi(&self, point: &Point) -> f64 {
+        let (n_dot_l, n_dot_v) = (point.n_dot_l, point.n_dot_v);
+        let sines = ((1.0 - n_dot_l * n_dot_l) * (1.0 - n_dot_v * n_dot_v))
+            .max(0.0)
+            .sqrt();
+        if sines > 0.0 {
+            ((self.cos_light - n_dot_l * n_dot_v) / sines).clamp(-1.0, 1.0)
         } else {
             1.0
-        };
-        Point {
-            n_dot_l,
-            n_dot_v: z,
-            n_dot_h,
-            cos_phi,
         }
     }
 

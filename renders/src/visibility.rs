@@ -1,7 +1,7 @@
 //! Whether the bug shows: a few numbers that say what the eye may miss.
 
 use crate::Fingerprint;
-use crate::colour::srgb_encode;
+use crate::colour::EncodeTable;
 use crate::cpu::Cpu;
 use crate::profile::at_angles;
 use crate::sample::Samples;
@@ -74,7 +74,7 @@ fn rim_median(fingerprint: &Fingerprint<'_>, cpu: &Cpu) -> (f64, f64) {
             geometry.lit(radius * angle.cos(), radius * angle.sin())
         })
     });
-    let values = cpu.evaluate(&Samples::of(points));
+    let values = cpu.evaluate(&Samples::of(&geometry, points));
     (median(values.wrong), median(values.right))
 }
 
@@ -88,13 +88,14 @@ fn median(mut values: Vec<f64>) -> f64 {
 
 /// Shares of the lit pixels that become visibly brighter and dimmer.
 fn changed(shaded: &Shaded) -> (f64, f64) {
+    let encode = EncodeTable::new();
     let (mut lit, mut brighter, mut dimmer) = (0_u64, 0_u64, 0_u64);
     for index in 0..shaded.lit.len() {
         if shaded.lit[index] == 0.0 {
             continue;
         }
         lit += 1;
-        let level = |seen: f32| 255.0 * srgb_encode(f64::from(seen));
+        let level = |seen: f32| 255.0 * encode.signal(seen);
         let change = level(shaded.wrong_seen[index]) - level(shaded.right_seen[index]);
         brighter += u64::from(change > 8.0);
         dimmer += u64::from(change < -8.0);
