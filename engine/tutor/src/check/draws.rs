@@ -266,11 +266,7 @@ fn culprit(plan: &Plan<'_>) -> String {
             worst.push((met, format!("`{}` meets `{}` in {met} %", a.id, b.id)));
         }
     }
-    let rounding = points.iter().filter(|point| {
-        let kept = plan.kept(point);
-        let mut pairs = kept.iter().zip(&point.steps);
-        pairs.any(|(kept, truth)| (kept - truth).abs() > rel * truth.abs())
-    });
+    let rounding = points.iter().filter(|point| !plan.kind_to_rounding(point));
     let rounding = percent(rounding.count());
     worst.push((
         rounding,

@@ -123,3 +123,8 @@ pub fn round_to(value: f64, digits: u32) -> f64 {
     let rounded = (value * scale).round() / scale;
     if rounded.is_finite() { rounded } else { value }
 }
+
+/// Equal but for f64's own rounding.
+pub fn nearly_equal(a: f64, b: f64) -> bool {
+    (a - b).abs() <= 1e-9 * b.abs()
+}

@@ -2,7 +2,7 @@
 
 use formula::Values;
 
-use super::chain::rounded;
+use super::chain::{nearly_equal, round_to, rounded};
 use super::plan::{Plan, Point, apart, steps_of};
 use super::random::Random;
 use super::{Draw, Mistake, NoDraw, StepTruth, Truth, digits_kept};
@@ -75,7 +75,11 @@ impl Plan<'_> {
             if !value.is_finite() {
                 continue;
             }
-            if !apart(value, point.steps[mistake.made_in], rel) {
+            let truth = point.steps[mistake.made_in];
+            // A mistake of 0.5 would pass for a truth of 0.51 with too few digits.
+            let short =
+                mistake.named && (1..=3).any(|digits| nearly_equal(value, round_to(truth, digits)));
+            if short || !apart(value, truth, rel) {
                 return false;
             }
             if mistake.named {
@@ -89,8 +93,9 @@ impl Plan<'_> {
         self.kind_to_rounding(point)
     }
 
-    /// Whether somebody who keeps the digits that he is told to keep stays within the tolerance.
-    fn kind_to_rounding(&self, point: &Point) -> bool {
+    /// Whether somebody who keeps the digits that he is told to keep stays within the tolerance,
+    /// the last rounding included.
+    pub fn kind_to_rounding(&self, point: &Point) -> bool {
         let rel = self.exercise.tolerance.rel;
         self.kept(point)
             .iter()

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use formula::Values;
 
-use super::chain::round_to;
+use super::chain::{nearly_equal, round_to};
 use super::plan::{Plan, Point, steps_of};
 use super::{Draw, Mistake, digits_kept, percent};
 use crate::lesson::{Exercise, Lesson, Task};
@@ -219,7 +219,7 @@ impl Marker<'_> {
             Ok(value) => value,
             Err(says) => return Marking::invalid(says),
         };
-        if self.near(value, self.truth) || self.near_kept(value) {
+        if self.near(value, self.truth) {
             return Marking::Correct;
         }
         let followed = self.followed(&typed);
@@ -272,16 +272,6 @@ impl Marker<'_> {
         }
     }
 
-    /// Near the value of somebody who kept the digits that he was told to keep.
-    fn near_kept(&self, value: f64) -> bool {
-        let digits = digits_kept(self.exercise);
-        let kept = self.plan.kept(&self.point);
-        kept.get(self.index).is_some_and(|kept| {
-            let unit = 10_f64.powi(1 - digits as i32) * kept.abs();
-            self.near(*kept, self.truth) && (value - kept).abs() <= unit / 2.0
-        })
-    }
-
     /// What follows from the learner's earlier numbers, and the first step among them that was
     /// not right. None where there are no earlier numbers.
     fn followed(&self, typed: &[Option<f64>]) -> Option<(f64, Option<usize>)> {
@@ -305,7 +295,7 @@ impl Marker<'_> {
 
     fn too_few_digits(&self, answer: &str, value: f64) -> Option<Marking> {
         let digits = formula::significant_digits(answer)?;
-        let same = |other: f64| (value - other).abs() <= 1e-9 * value.abs();
+        let same = |other: f64| nearly_equal(value, other);
         let cut = || {
             let scale = 10_f64.powi(digits as i32 - 1 - self.truth.abs().log10().floor() as i32);
             (self.truth * scale).trunc() / scale

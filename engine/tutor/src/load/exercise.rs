@@ -28,6 +28,10 @@ pub fn read(table: &Table<'_, '_>, worked: Option<&Worked>) -> Option<Exercise> 
             let near = reader::nearest(other, KINDS.into_iter());
             let expected = near.map_or_else(|| KINDS.join(", "), str::to_owned);
             table.wrong("kind", "unknown-name", message, &expected);
+            // Which keys it should have depends on what was meant.
+            for key in ["is", "answer", "steps", "option", "item", "line", "source"] {
+                let _ = table.get(key);
+            }
             None
         }
     };

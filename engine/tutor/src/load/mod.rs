@@ -8,7 +8,7 @@ mod reader;
 
 use std::cell::RefCell;
 
-use formula::{Digits, Library};
+use formula::{Digits, Library, Values};
 use toml::de::DeTable;
 
 pub(crate) use reader::{capitalised, nearest};
@@ -19,6 +19,7 @@ use crate::lesson::{
     AxisX, AxisY, Claim, Column, Explain, ExplainStage, Fingerprint, FormulaEntry, Lesson, Limit,
     Mark, Plot, Reteach, Series, SourceSays, Step, TakesUp, Test, Text, Worked, WorkedLine,
 };
+use crate::prose::plain_blocks;
 use crate::rubric::Rubric;
 use reader::{Source, Table, place};
 
@@ -62,6 +63,10 @@ fn syntax_finding(source: &Source<'_>, error: &toml::de::Error) -> Finding {
         Some((message, expected)) => (message, Some(expected)),
         None => (error.message(), None),
     };
+    if at.start == at.end && message.contains("must be quoted") {
+        let finding = source.finding(at, "toml", "A value is missing here.");
+        return finding.expecting("a string in quotes, a number, true, false, [ … ] or { … }");
+    }
     let mut finding = source.finding(at, "toml", format!("{}.", capitalised(message)));
     finding.expected = expected.map(str::to_owned);
     finding
@@ -87,7 +92,7 @@ fn read_lesson(table: &Table<'_, '_>) -> Lesson {
     let worked = table
         .table("worked", "[worked]")
         .map(|worked| read_worked(&worked, &id));
-    let lesson = Lesson {
+    let mut lesson = Lesson {
         file: table.source.file.to_owned(),
         hash: hash(table.source.text),
         source: table.source.text.to_owned(),
@@ -128,6 +133,15 @@ fn read_lesson(table: &Table<'_, '_>) -> Lesson {
         id,
     };
     table.finish();
+    // The judge hears the question as the learner reads it, and costs a little to make: only
+    // now is everything there that the question's templates may speak of.
+    let mut explain = std::mem::take(&mut lesson.explain);
+    for question in &mut explain {
+        let asked = lesson.prose(&question.prompt, &Values::new());
+        question.rubric.prompt = plain_blocks(&asked);
+        question.judge = Judge::new(&question.rubric);
+    }
+    lesson.explain = explain;
     lesson
 }
 
@@ -185,7 +199,13 @@ fn read_formulas(table: &Table<'_, '_>) -> (Vec<FormulaEntry>, Library) {
         let Some(is) = is else { continue };
         let params: Vec<&str> = of.iter().map(|param| param.text.as_str()).collect();
         if let Err(error) = library.define(&name, &params, &is.text) {
-            table.source.report_formula(&is.text, &error);
+            // An empty span: the name or a parameter is at fault, not the formula.
+            let at = if error.span.start == error.span.end {
+                &name
+            } else {
+                &is.text
+            };
+            table.source.report_formula(at, &error);
             continue;
         }
         entries.push(FormulaEntry {
@@ -500,7 +520,7 @@ fn read_explain(table: &Table<'_, '_>) -> Option<Explain> {
         title: table.need_text("title"),
         prompt,
         model_answer: table.need_text("model_answer"),
-        judge: Judge::new(&rubric),
+        judge: Judge::new(&Rubric::default()),
         rubric,
         expectation_places,
         misconception_places,

@@ -87,6 +87,8 @@ pub struct Table<'s, 't> {
     /// How messages call it, such as `[[exercise]]`.
     what: String,
     asked: RefCell<Vec<&'static str>>,
+    /// Keys that are missing, told at the end unless they are there misspelt.
+    missing: RefCell<Vec<(String, Finding)>>,
 }
 
 impl<'s, 't> Table<'s, 't> {
@@ -97,6 +99,7 @@ impl<'s, 't> Table<'s, 't> {
             place,
             what: what.to_owned(),
             asked: RefCell::new(Vec::new()),
+            missing: RefCell::new(Vec::new()),
         }
     }
 
@@ -119,11 +122,10 @@ impl<'s, 't> Table<'s, 't> {
     /// Reports that a key is missing.
     pub fn missing(&self, key: &str, expected: &str) {
         let message = format!("{} has no `{key}`.", self.what);
-        self.source.report(
-            self.source
-                .finding(self.place, "missing-key", message)
-                .expecting(expected),
-        );
+        let finding = self.source.finding(self.place, "missing-key", message);
+        self.missing
+            .borrow_mut()
+            .push((key.to_owned(), finding.expecting(expected)));
     }
 
     /// Reports something about a key's value.
@@ -330,15 +332,20 @@ impl<'s, 't> Table<'s, 't> {
         }
     }
 
-    /// Reports the keys that nobody asked for.
+    /// Reports the keys that nobody asked for, and those that are missing.
     pub fn finish(&self) {
         let asked = self.asked.borrow();
+        let mut missing = self.missing.take();
         for (key, _) in in_order(self.table) {
             if !asked.contains(&key.text.as_str()) {
                 let known = asked.iter().copied();
-                self.source
-                    .report(unknown_key(self.source, key.place, &self.what, &key, known));
+                let finding = unknown_key(self.source, key.place, &self.what, &key, known);
+                missing.retain(|(name, _)| finding.expected.as_ref() != Some(name));
+                self.source.report(finding);
             }
+        }
+        for (_, finding) in missing {
+            self.source.report(finding);
         }
     }
 }

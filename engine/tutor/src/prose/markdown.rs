@@ -30,7 +30,7 @@ struct Writer<'a> {
     /// The paragraph or item being written.
     inlines: Vec<Inline>,
     /// Open lists, outermost first; inner lists become further items of the outermost.
-    lists: Vec<(bool, Vec<Vec<Inline>>)>,
+    lists: Vec<(Option<u64>, Vec<Vec<Inline>>)>,
     strong: usize,
     emph: usize,
     quote: usize,
@@ -69,7 +69,7 @@ impl Writer<'_> {
             }
             Tag::List(first) => {
                 self.end_item();
-                self.lists.push((first.is_some(), Vec::new()));
+                self.lists.push((*first, Vec::new()));
             }
             // A further paragraph of an item goes on in the same item.
             Tag::Paragraph if !self.lists.is_empty() && !self.inlines.is_empty() => self.text(" "),
@@ -113,12 +113,22 @@ impl Writer<'_> {
 
     fn end_list(&mut self) {
         self.end_item();
-        let Some((ordered, items)) = self.lists.pop() else {
+        let Some((first, items)) = self.lists.pop() else {
             return;
         };
-        match self.lists.last_mut() {
-            Some((_, outer)) => outer.extend(items),
-            None => self.blocks.push(Block::List { ordered, items }),
+        match (self.lists.last_mut(), first) {
+            (Some((_, outer)), _) => outer.extend(items),
+            // "2. What would you see?" is a numbered question, not a list of one.
+            (None, Some(first)) if first != 1 || items.len() == 1 => {
+                for (number, mut item) in (first..).zip(items) {
+                    item.insert(0, Inline::Text(format!("{number}. ")));
+                    self.blocks.push(Block::Paragraph(item));
+                }
+            }
+            (None, first) => self.blocks.push(Block::List {
+                ordered: first.is_some(),
+                items,
+            }),
         }
     }
 

@@ -1,0 +1,328 @@
+//! Reading lesson files: a complete one without a finding, broken ones with the right place.
+
+use proptest::prelude::*;
+use tutor::{Finding, check, load};
+
+const COMPLETE: &str = include_str!("fixtures/complete.toml");
+
+/// Replaces a stretch of the complete lesson that occurs exactly once.
+#[track_caller]
+fn edited(from: &str, to: &str) -> String {
+    assert_eq!(COMPLETE.matches(from).count(), 1, "{from:?} occurs once");
+    COMPLETE.replacen(from, to, 1)
+}
+
+fn findings(text: &str) -> Vec<Finding> {
+    let (lesson, mut findings) = load("lesson.toml", text);
+    if let Some(lesson) = lesson {
+        findings.extend(check(&lesson));
+    }
+    findings
+}
+
+/// One edit must give a first finding whose message starts so, at the text `at`
+/// within the edit (anywhere, where `at` is empty).
+#[track_caller]
+fn check_edit(from: &str, to: &str, at: &str, message: &str) {
+    let text = edited(from, to);
+    let found = findings(&text);
+    let Some(first) = found.first() else {
+        panic!("{to:?}: nothing found");
+    };
+    assert!(
+        first.message.starts_with(message),
+        "{to:?}: {:?}\nwanted {message:?}",
+        found
+    );
+    if at.is_empty() {
+        return;
+    }
+    let within = text.find(to).expect("the edit is there");
+    let start = within + to.find(at).expect("the place is in the edit");
+    let line = text[..start].matches('\n').count() + 1;
+    let line_start = text[..start].rfind('\n').map_or(0, |end| end + 1);
+    let column = text[line_start..start].chars().count() + 1;
+    assert_eq!(
+        (first.line, first.column),
+        (line, column),
+        "{to:?}: {first:?}"
+    );
+}
+
+#[test]
+fn a_complete_lesson_has_no_finding() {
+    let (lesson, found) = load("complete.toml", COMPLETE);
+    assert_eq!(found, []);
+    let lesson = lesson.expect("a lesson");
+    assert_eq!(check(&lesson), []);
+    assert_eq!(lesson.hash.len(), 16);
+    assert_eq!(lesson.exercises.len(), 7);
+    assert_eq!(lesson.worked.expect("worked").lines.len(), 4);
+}
+
+#[test]
+fn broken_files_are_told_by_place() {
+    // Not TOML.
+    check_edit("minutes = 5", "minutes = five", "five", "");
+    check_edit("minutes = 5", "minutes =", "", "A value is missing here.");
+    // Structure.
+    check_edit(
+        "summary = \"Every",
+        "sumary = \"Every",
+        "sumary",
+        "The lesson has no key `sumary`.",
+    );
+    check_edit(
+        "minutes = 5",
+        "minutes = \"5\"",
+        "\"5\"",
+        "`minutes` is a string here.",
+    );
+    check_edit(
+        "format = 1",
+        "format = 2",
+        "2",
+        "This format is not known here.",
+    );
+    check_edit(
+        "retest = true",
+        "retests = true",
+        "retests",
+        "[[exercise]] has no key `retests`.",
+    );
+    check_edit(
+        "kind = \"order\"",
+        "kind = \"ordr\"",
+        "\"ordr\"",
+        "`ordr` is not a kind of exercise.",
+    );
+    check_edit(
+        "stage = \"retest\"",
+        "stage = \"later\"",
+        "\"later\"",
+        "`later` is not a stage.",
+    );
+    check_edit(
+        "n_dot_h = \"0.85..0.98 by 0.01\"",
+        "n_dot_h = \"0.85..0.98\"",
+        "\"0.85",
+        "`0.85..0.98` is not a range.",
+    );
+    check_edit(
+        "phrases = [\"d cannot exceed one\"]",
+        "phrase = [\"d cannot\"]",
+        "phrase",
+        "It has no key `phrase`.",
+    );
+    check_edit(
+        "rounds = [1, 3]",
+        "rounds = [1, 5]",
+        "[1, 5]",
+        "A round cannot ask for 5 of 4 lines.",
+    );
+    check_edit(
+        "\"second\", \"third\"]",
+        "\"second\", 3]",
+        "3",
+        "An entry of `item` is an integer here.",
+    );
+    // Formulas.
+    check_edit(
+        "is = \"1 / (pi * alpha^2)\"",
+        "is = \"1 / (pi * alfa^2)\"",
+        "alfa",
+        "",
+    );
+    check_edit("is = \"roughness\"", "is = \"rougness\"", "rougness", "");
+    check_edit(
+        "where = \"n_dot_l * n_dot_v > 0.02\"",
+        "where = \"n_dot_l * * 2\"",
+        "* 2",
+        "",
+    );
+}
+
+#[test]
+fn numbers_are_compared_as_printed() {
+    check_edit(
+        "shown = \"0.5132\"",
+        "shown = \"0.5133\"",
+        "0.5133",
+        "`v` is printed as 0.5133; the core computes 0.5132.",
+    );
+    check_edit(
+        "\"0.71\"",
+        "\"0.72\"",
+        "0.72",
+        "Row 2 of \"ratio\" is printed as 0.72; the core computes 0.71.",
+    );
+    check_edit(
+        "\"0.71\"",
+        "\"0.714\"",
+        "0.714",
+        "The table prints 0.71 here, not 0.714.",
+    );
+    check_edit(
+        "shown = \"0.4784\"",
+        "shown = \"0.4785\"",
+        "0.4785",
+        "The source's number is given as 0.4785",
+    );
+    check_edit(
+        "truth = \"visibility()\"",
+        "truth = \"0.4784\"",
+        "",
+        "The source's 0.4784 is right",
+    );
+    check_edit(
+        "equals = \"0.25\"",
+        "equals = \"0.26\"",
+        "0.26",
+        "The claim says 0.26; the core computes 0.25.",
+    );
+    check_edit(
+        "n_dot_v = 0) < 10",
+        "n_dot_v = 0) > 10",
+        "",
+        "This does not hold: V is finite at the rim.",
+    );
+    check_edit(
+        "cells = [\"→ ∞\"",
+        "cells = [\"→ 0\"",
+        "→ 0",
+        "\"→ 0\" is said to be the limit",
+    );
+    check_edit(
+        "is = \"alpha^2 / (pi * (n_dot_h^2",
+        "is = \"alpha^2 / (3 * (n_dot_h^2",
+        "alpha^2 / ",
+        "At ",
+    );
+}
+
+#[test]
+fn prose_types_no_numbers() {
+    check_edit(
+        "The peak of D is ",
+        "At roughness 0.4 the peak of D is ",
+        "0.4",
+        "0.4 is typed here",
+    );
+    check_edit("- two, ", "- α two 1.5, ", "1.5", "1.5 is typed here");
+    check_edit("{{ v : .4 }}", "{{ w : .4 }}", "w", "");
+    check_edit(
+        "{{ v : .4 }}",
+        "{{ v : 4 }}",
+        "4 }}",
+        "This is not a format of numbers.",
+    );
+    check_edit(
+        "{{ v : .4 }}",
+        "{{ v : .4",
+        "{{",
+        "This template is not closed.",
+    );
+    check_edit(
+        "{{ formula d }}",
+        "{{ formula dd }}",
+        "dd",
+        "No formula is called `dd`.",
+    );
+    check_edit(
+        "{{ source slip }} for V",
+        "{{ source slop }} for V",
+        "slop",
+        "No `[[source_says]]` has the id `slop`.",
+    );
+}
+
+#[test]
+fn references_and_ids() {
+    check_edit(
+        "picture = \"twice\"",
+        "picture = \"twise\"",
+        "twise",
+        "No `[[fingerprint]]` is called `twise`.",
+    );
+    check_edit(
+        "source = \"slip\"",
+        "source = \"slap\"",
+        "slap",
+        "No `[[source_says]]` is called `slap`.",
+    );
+    check_edit(
+        "step = \"inner\"",
+        "step = \"iner\"",
+        "iner",
+        "No step is called `iner`.",
+    );
+    check_edit(
+        "id = \"fixture/order\"",
+        "id = \"order\"",
+        "order",
+        "`order` is not an id of this lesson.",
+    );
+    check_edit(
+        "id = \"fixture/order\"",
+        "id = \"fixture/which\" # again",
+        "fixture/which",
+        "Another exercise or question",
+    );
+    check_edit(
+        "core = \"v_ggx\"",
+        "core = \"v_gxx\"",
+        "v_gxx",
+        "The core has no function `v_gxx`.",
+    );
+}
+
+#[test]
+fn exercises_are_rich_enough() {
+    check_edit(
+        "tolerance = { rel = 0.02 }",
+        "tolerance = { rel = 0.002 }",
+        "0.002",
+        "Learners who round",
+    );
+    check_edit(
+        "is = \"1 / roughness^4\"",
+        "is = \"1 / (pi * roughness^2)\" # twice",
+        "",
+        "10000 tries give no numbers for `fixture/peak`",
+    );
+}
+
+#[test]
+fn several_errors_come_at_once() {
+    let text = COMPLETE
+        .replacen("minutes = 5", "minutes = \"5\"", 1)
+        .replacen("retest = true", "retests = true", 1)
+        .replacen("kind = \"order\"", "kind = \"ordr\"", 1);
+    let codes: Vec<&str> = load("x", &text).1.iter().map(|it| it.code).collect();
+    assert_eq!(codes, ["wrong-kind", "unknown-key", "unknown-name"]);
+    let text = "a = \nb = \n[c\nd = 1";
+    assert!(load("x", text).1.len() >= 2);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn any_text_gives_an_answer(text in "(?s).{0,200}") {
+        let _ = load("x", &text);
+    }
+
+    #[test]
+    fn any_damage_gives_an_answer(at in 0..COMPLETE.len(), length in 0..40usize, with in "[\\PC\\n\"'\\\\{}\\[\\]=]{0,6}") {
+        let mut start = at;
+        while !COMPLETE.is_char_boundary(start) { start -= 1; }
+        let mut end = (start + length).min(COMPLETE.len());
+        while !COMPLETE.is_char_boundary(end) { end -= 1; }
+        let text = format!("{}{with}{}", &COMPLETE[..start], &COMPLETE[end.max(start)..]);
+        let (lesson, findings) = load("x", &text);
+        prop_assert!(lesson.is_some() || !findings.is_empty());
+        for finding in &findings {
+            prop_assert!(finding.end <= text.len() && finding.line >= 1 && finding.column >= 1);
+        }
+    }
+}
