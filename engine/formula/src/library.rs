@@ -100,30 +100,31 @@ impl Library {
     /// Everything wrong with the definitions: unknown names and arguments, cycles, size.
     /// Each error with the name of the definition into whose text it points.
     pub fn check(&self) -> Vec<(String, Error)> {
-        let mut errors = Vec::new();
+        let mut errors: BTreeMap<&str, Vec<Error>> = BTreeMap::new();
         for definition in self.definitions() {
             let scope = Scope {
                 own: Some(&definition.params),
                 givens: None,
             };
-            let mut own = self.look_up(&definition.body, scope);
-            if own.is_empty() {
-                // What the look-up cannot see: cycles and size. A fault inside another
-                // definition is told there, not here again.
-                if let Err(error) = self.lower_definition(definition) {
-                    let elsewhere = error.message.starts_with("in ")
-                        && !error.message.contains("is defined by itself");
-                    if !elsewhere {
-                        own.push(error);
-                    }
-                }
-            }
-            errors.extend(
-                own.into_iter()
-                    .map(|error| (definition.name.clone(), error)),
-            );
+            errors.insert(&definition.name, self.look_up(&definition.body, scope));
         }
-        errors
+        // Cycles and size show only in the whole, and only where every part can be read;
+        // each is told once.
+        for definition in self.definitions() {
+            let mut parts = self.uses(&definition.body);
+            parts.insert(definition.name.clone());
+            let readable = parts
+                .iter()
+                .all(|name| errors.get(name.as_str()).is_none_or(Vec::is_empty));
+            if readable && let Err(error) = self.lower_definition(definition) {
+                errors.insert(&definition.name, vec![error]);
+            }
+        }
+        let named = |(name, errors): (&str, Vec<Error>)| {
+            let name = name.to_string();
+            errors.into_iter().map(move |error| (name.clone(), error))
+        };
+        errors.into_iter().flat_map(named).collect()
     }
 
     /// Everything wrong with an expression over the given `names`, without evaluating it.

@@ -305,7 +305,8 @@ impl<'l> Lowerer<'l, '_> {
                 definition.name,
                 round.join(" → ")
             );
-            return Err(self.error(Error::new(span, message), frame));
+            let whole = frame.site.map_or(span, |(site, _)| site);
+            return Err(Error::new(whole, message));
         }
         let known = self
             .dag

@@ -385,9 +385,10 @@ impl Editor<'_> {
                 self.product_shown(&by)
             );
             self.add(MutantKind::DividedTwice, "4 n_dot_l n_dot_v", says, new);
-            let new = Expr::binary(BinaryOp::Mul, by.clone(), self.root.clone());
-            let says = format!("it was multiplied by {}", self.product_shown(&by));
-            if self.top {
+            // Over a sum it is V; over a product the division is the reader's own.
+            if self.top && !below_is_product(self.root) {
+                let says = "it was multiplied by 4·N·L·N·V: that is G2, not V".to_string();
+                let new = Expr::binary(BinaryOp::Mul, by, self.root.clone());
                 self.add(MutantKind::DivisionLost, "4 n_dot_l n_dot_v", says, new);
             }
         }
@@ -398,6 +399,25 @@ fn ordinal(index: usize) -> String {
     match ["the first", "the second", "the third"].get(index) {
         Some(word) => format!("{word} time"),
         None => format!("at place {}", index + 1),
+    }
+}
+
+fn below_is_product(expr: &Expr) -> bool {
+    match &expr.node {
+        Node::Binary {
+            op: BinaryOp::Div,
+            right,
+            ..
+        } => {
+            matches!(
+                &right.node,
+                Node::Binary {
+                    op: BinaryOp::Mul,
+                    ..
+                }
+            )
+        }
+        _ => false,
     }
 }
 

@@ -262,8 +262,7 @@ fn libraries_are_checked() {
     let expected = [
         "bad 4..12 unknown name \"roghness\"; a formula sees only its own arguments: add it to them",
         "lost 4..18 unknown function \"nothing\"",
-        "ping 4..10 in pong: ping is defined by itself: ping → pong → ping",
-        "pong 0..6 in ping: pong is defined by itself: pong → ping → pong",
+        "ping 4..10 ping is defined by itself: ping → pong → ping",
         "self_made 0..11 self_made is defined by itself: self_made → self_made",
     ];
     assert_eq!(found, expected);

@@ -112,7 +112,7 @@ fn each_kind_of_slip_is_found_and_told() {
         ),
         (
             "visibility()",
-            "arguments-swapped@visibility:s",
+            "arguments-swapped@visibility:s-c-n_dot_v-s-c-n_dot_l",
             "In visibility, s(N·V) and s(N·L) changed places.",
             "0.5 / (0.6 * s(c = 0.6) + 0.8 * s(c = 0.8))",
         ),

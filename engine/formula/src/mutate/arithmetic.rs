@@ -70,6 +70,7 @@ impl Editor<'_> {
                 );
             }
         }
+        self.partners(path, op, left, right);
         for (lost, kept) in [(left, right), (right, left)] {
             let first = std::ptr::eq(lost, left);
             if let Node::Number { text, .. } = &lost.node
@@ -79,6 +80,28 @@ impl Editor<'_> {
                 let says = format!("the {sign} {text} was forgotten");
                 self.at(path, MutantKind::TermLost, text, says, kept.clone());
             }
+        }
+    }
+
+    /// a·b + c·d with b and d swapped: the roots of V paired with their own cosines.
+    fn partners(&mut self, path: &[usize], op: BinaryOp, left: &Expr, right: &Expr) {
+        let two = |expr: &Expr| match &expr.node {
+            Node::Binary {
+                op: BinaryOp::Mul,
+                left,
+                right,
+            } => Some(((**left).clone(), (**right).clone())),
+            _ => None,
+        };
+        if let (Some((a, b)), Some((c, d))) = (two(left), two(right)) {
+            let says = format!("{} and {} changed places", self.show(&b), self.show(&d));
+            let subject = format!("{b} {d}");
+            let new = Expr::binary(
+                op,
+                Expr::binary(BinaryOp::Mul, a, d),
+                Expr::binary(BinaryOp::Mul, c, b),
+            );
+            self.at(path, MutantKind::ArgumentsSwapped, &subject, says, new);
         }
     }
 

@@ -4,7 +4,7 @@ use super::{Editor, Path, is_quotient, named, product, replaced};
 use crate::builtin::Builtin;
 use crate::expr::{Arg, BinaryOp, Expr, Node};
 use crate::mutant::MutantKind;
-use crate::scope::Callee;
+use crate::scope::{Callee, twin};
 
 impl Editor<'_> {
     pub(super) fn call(&mut self, path: &[usize], node: &Expr, name: &str, args: &[Arg]) {
@@ -178,6 +178,10 @@ impl Editor<'_> {
                 let (Some(left), Some(right)) = (&one.name, &two.name) else {
                     continue;
                 };
+                // Nobody passes a roughness for a cosine.
+                if twin(left).is_some() != twin(right).is_some() {
+                    continue;
+                }
                 let mut swapped = args.to_vec();
                 swapped[first].value = two.value.clone();
                 swapped[second].value = one.value.clone();
