@@ -55,7 +55,16 @@ trail train trial
 steal steel steep steer stem step
 moon noon soon mood moody
 grain grains green great greet
-inner under upper outer other";
+inner under upper outer other
+files string block contributors build crates contract parameter pointer simple published lesser incidental connection
+allow arguments property multiple clone contributor slice stack bench party master currently grant overlay
+whatsoever known remote march wrapper apple colon martin detection older chars exclusive token sizes
+quote flush union abort constructor tainted counter starting driver alone produce newer portability fails
+leading matcher excluding blank underline logger walter timer units modes blake linked slices constraint
+easing electronic timers produces writer exclusion ports distributors pipes converted binding failing converters drive
+packet attention blame factory layer guest theme emulation sleep delay basect
+different written answer answers simple simpler simplest easy easier hard harder brighten allow allows allowed along follow follows followed
+mention mentioned minute minutes moment person version verse inverse universe adverse diverse notice notices noticed matches catch caught";
 
 /// Whether a word is part of the language's machinery, or so common that no typo means it.
 pub fn is_known(word: &str) -> bool {

@@ -92,10 +92,7 @@ pub struct Lexicon {
 fn is_filler(word: &str) -> bool {
     matches!(
         word,
-        "the"
-            | "a"
-            | "an"
-            | "its"
+        "its"
             | "very"
             | "too"
             | "so"
@@ -107,7 +104,13 @@ fn is_filler(word: &str) -> bool {
             | "then"
             | "even"
             | "their"
+            | "his"
+            | "such"
     )
+}
+
+fn is_article(word: &str) -> bool {
+    matches!(word, "the" | "a" | "an")
 }
 
 /// The one lexicon.
@@ -318,7 +321,15 @@ fn matches(entry: &Entry, forms: &[Form], at: usize) -> Option<(usize, usize)> {
                 next += 1;
                 break;
             }
-            let skipped = position > 0 && next < at + position + 2 && is_filler(&form.word);
+            let inside = position > 0 && next < at + position + 2;
+            let article = || {
+                is_article(&form.word)
+                    && !matches!(
+                        entry.words[position - 1].word.as_str(),
+                        "one" | "single" | "same"
+                    )
+            };
+            let skipped = inside && (is_filler(&form.word) || article());
             if !skipped {
                 return None;
             }

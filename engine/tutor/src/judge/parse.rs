@@ -143,6 +143,17 @@ fn find(lexicon: &Lexicon, tokens: &[Token], forms: &[Form]) -> Vec<Match> {
             at += 1;
             continue;
         };
+        // "the same normal" is not "the same".
+        let article = matches!(tokens[at].word.as_str(), "the" | "a" | "an");
+        if article
+            && at + 1 < tokens.len()
+            && lexicon
+                .longest(forms, at + 1)
+                .is_some_and(|(further, _)| further >= taken)
+        {
+            at += 1;
+            continue;
+        }
         if !concepts.is_empty() {
             out.push(Match {
                 start: at,
@@ -558,10 +569,13 @@ impl Reading {
     ) -> Option<About> {
         let clause = self.clause[found.start];
         // The words themselves name it ("white edge" is one entry; "quarter" is not).
-        if let Some(own) = list.get(next).filter(|m| m.start == found.start) {
+        if let Some(own) = list
+            .get(next)
+            .filter(|m| m.start >= found.start && m.end <= found.end)
+        {
             let concepts = list[next..]
                 .iter()
-                .take_while(|m| m.start == found.start)
+                .take_while(|m| m.end <= found.end)
                 .map(|m| m.concept)
                 .collect();
             return Some(About {
@@ -653,7 +667,9 @@ impl Reading {
         {
             return None;
         }
-        let held = if self.sentence[prev.start] == self.sentence[found.start] {
+        let held = if self.sentence[prev.start] == self.sentence[found.start]
+            || self.refers_back(found.start)
+        {
             Held::Inherited
         } else {
             Held::Remembered
@@ -675,6 +691,33 @@ impl Reading {
         let same = self.clause[earlier.start] == self.clause[m.start]
             && !self.generic.contains(&earlier.concept);
         if same && leads { earlier } else { m }
+    }
+
+    /// Whether a sentence begins by taking up the one before: "There it is", "This".
+    fn refers_back(&self, at: usize) -> bool {
+        let sentence = self.sentence[at];
+        let first = self.sentence.partition_point(|&s| s < sentence);
+        let word = self
+            .tokens
+            .get(first)
+            .map(|t| t.word.as_str())
+            .unwrap_or_default();
+        matches!(
+            word,
+            "it" | "its"
+                | "there"
+                | "this"
+                | "that"
+                | "these"
+                | "those"
+                | "they"
+                | "here"
+                | "and"
+                | "so"
+                | "way"
+                | "too"
+                | "where"
+        )
     }
 
     /// The last mention before, leaving out what stands behind "than".
@@ -825,7 +868,7 @@ impl Reading {
             if at == 0 || self.clause[at] != self.clause[at - 1] {
                 contrasts = matches!(
                     token.word.as_str(),
-                    "while" | "whereas" | "although" | "though" | "where" | "when" | "but"
+                    "while" | "whereas" | "although" | "though"
                 );
             }
             let ought = matches!(token.word.as_str(), "should" | "ought" | "supposed");

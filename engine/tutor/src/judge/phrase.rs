@@ -339,6 +339,20 @@ impl Atom {
 
     /// Is the statement about what the phrase is about?
     fn topic(&self, lexicon: &Lexicon, statement: &Statement, ears: Ears) -> f64 {
+        // What one sees of the spot says nothing of the cause behind it.
+        let of_cause = !self.about[QUANTITY].is_empty() || !self.things.is_empty();
+        let held = if self.things.is_empty() {
+            Held::Inherited
+        } else {
+            Held::Local
+        };
+        if of_cause
+            && self.about[PLACE].is_empty()
+            && statement.about[QUANTITY].is_none()
+            && is_highlight(lexicon, statement, held)
+        {
+            return 0.0;
+        }
         let mut score: f64 = if statement.ideal && self.about[QUANTITY].is_empty() {
             0.4
         } else {
@@ -374,7 +388,6 @@ impl Atom {
                 None if generic => 0.9,
                 None => match class {
                     PLACE => 0.55,
-                    SURFACE if ears.strict => 0.6,
                     SURFACE if ears.strict => 0.45,
                     SURFACE | CAUSE => 0.8,
                     QUANTITY
@@ -383,7 +396,6 @@ impl Atom {
                     {
                         0.45
                     }
-                    QUANTITY if is_highlight(lexicon, statement) => 0.45,
                     _ if ears.understands(wanted) => 0.9,
                     MATERIAL => 0.6,
                     _ => 0.5,
@@ -451,7 +463,7 @@ impl Atom {
                 near = near.max(match () {
                     () if same_clause => 1.0,
                     () if other.sentence == statement.sentence => 0.9,
-                    () => 0.75,
+                    () => 0.7,
                 });
             }
             score *= near;
@@ -527,9 +539,9 @@ fn share(words: &[String], forms: &[Form]) -> f64 {
 }
 
 /// Whether a statement is about the spot that one sees, not about a quantity behind it.
-fn is_highlight(lexicon: &Lexicon, statement: &Statement) -> bool {
+fn is_highlight(lexicon: &Lexicon, statement: &Statement, held: Held) -> bool {
     statement.about[PLACE].as_ref().is_some_and(|about| {
-        about.held >= Held::Inherited
+        about.held >= held
             && about
                 .concepts
                 .iter()

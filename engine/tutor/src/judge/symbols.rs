@@ -455,6 +455,11 @@ fn setting(tokens: &[Token], at: usize) -> Found {
         return found(2, surface(value)?);
     }
     let value = number(tokens, at)?;
+    // "0 -> infinite; 1 -> 1/pi".
+    let opens = at == 0 || matches!(tokens[at - 1].kind, Kind::Stop | Kind::Break | Kind::Comma);
+    if opens && is(tokens, at + 1, &["->", ";", "gives"]) {
+        return found(1, surface(value)?);
+    }
     if value == 0.05 || value == 0.95 {
         return found(1, surface(value)?);
     }
