@@ -5,7 +5,7 @@ use super::event::{Event, Msg, Quote};
 use super::problem::{Problem, WHOLE};
 use super::question::{Heard, Question};
 use super::screen::Screen;
-use crate::exercise;
+use crate::exercise::{self, Marking};
 use crate::judge::{JUDGE_VERSION, Judgement};
 use crate::lesson::{Explain, Task};
 use crate::view::Saving;
@@ -285,18 +285,29 @@ impl Session {
         // The mistakes of a choice are all the author's own.
         let choice = matches!(exercise.task, Task::Choice { .. });
         let by_author = |id: &str| choice || exercise.mistakes.iter().any(|m| m.id.text == id);
-        Decided::event(Event::Attempt {
-            item,
-            round,
-            step: step.to_owned(),
-            seed: problem.seed,
-            given: draw.given.clone(),
-            text,
-            result: marking.result().to_owned(),
-            named: mistake.is_some_and(by_author),
-            mistake: mistake.map(str::to_owned),
-            says: marking.says().to_owned(),
-        })
+        let note = match marking {
+            Marking::Invalid { .. } | Marking::Correct | Marking::Carried { .. } => None,
+            Marking::Precision { .. }
+            | Marking::Mistake { .. }
+            | Marking::Ambiguous { .. }
+            | Marking::Off { .. }
+            | Marking::Wrong { .. } => Some("Try again, or go on with what you have.".to_owned()),
+        };
+        Decided {
+            note,
+            ..Decided::event(Event::Attempt {
+                item,
+                round,
+                step: step.to_owned(),
+                seed: problem.seed,
+                given: draw.given.clone(),
+                text,
+                result: marking.result().to_owned(),
+                named: mistake.is_some_and(by_author),
+                mistake: mistake.map(str::to_owned),
+                says: marking.says().to_owned(),
+            })
+        }
     }
 
     fn draft(&self, text: String) -> Decided {

@@ -199,7 +199,8 @@ impl Session {
         stages.into_iter().map(|s| (s, progress(s))).collect()
     }
 
-    fn place(&self, here: &Screen) -> (usize, usize) {
+    /// Position of a screen within its stage, from 1, and how many the stage has.
+    pub(super) fn place(&self, here: &Screen) -> (usize, usize) {
         let stage = here.base_stage(&self.lesson);
         let of_stage = |screen: &&Screen| screen.base_stage(&self.lesson) == stage;
         let item = |screen: &Screen| match screen {

@@ -4,6 +4,7 @@ use super::Session;
 use super::problem::{Problem, Turn, WHOLE};
 use super::screen::Screen;
 use super::show::{capital, paragraph, text, verdict};
+use super::show_question::count;
 use crate::exercise;
 use crate::lesson::{Exercise, Lesson, Task};
 use crate::prose::{Block, Inline, Tone};
@@ -18,7 +19,7 @@ pub(super) fn page(session: &Session, screen: &Screen) -> (String, Vec<Block>) {
     else {
         return Default::default();
     };
-    let heading = heading(session, screen);
+    let heading = heading(screen, exercise, problem);
     if let Err(no_draw) = problem.draw() {
         let says = format!("{} Go on without it.", no_draw.message);
         return (
@@ -59,28 +60,24 @@ pub(super) fn page(session: &Session, screen: &Screen) -> (String, Vec<Block>) {
     (heading, blocks)
 }
 
-fn heading(session: &Session, screen: &Screen) -> String {
-    let number = |stage: fn(&Screen) -> bool| {
-        let mut all = session.path.iter().filter(|other| stage(other));
-        let of = session.path.iter().filter(|other| stage(other)).count();
-        let at = all.position(|other| other == screen).map_or(1, |at| at + 1);
-        format!("{at} of {of}")
+/// What there is to do, in a few words; the header counts.
+fn heading(screen: &Screen, exercise: &Exercise, problem: &Problem) -> String {
+    if let Screen::Faded(_) = screen {
+        return match problem.asked.len() {
+            1 => "Your turn: the last line".to_owned(),
+            lines => format!("Your turn: the last {} lines", count(lines)),
+        };
+    }
+    let task = match &exercise.task {
+        Task::Numeric { steps } if steps.len() > 1 => "Compute it, step by step",
+        Task::Numeric { .. } => "Compute it",
+        Task::Choice { .. } => "Choose one",
+        Task::Order { .. } => "Put them in order",
+        Task::FindTheMistake { .. } => "Find the mistake",
     };
     match screen {
-        Screen::Faded(_) => {
-            let title = session
-                .lesson
-                .worked
-                .as_ref()
-                .map(|w| w.title.text.as_str());
-            let which = number(|s| matches!(s, Screen::Faded(_)));
-            format!("{}: your turn, {which}", title.unwrap_or("Worked example"))
-        }
-        Screen::Retest(_) => {
-            let which = number(|s| matches!(s, Screen::Retest(_)));
-            format!("Again with fresh numbers, {which}")
-        }
-        _ => format!("Exercise {}", number(|s| matches!(s, Screen::Practice(_)))),
+        Screen::Retest(_) => format!("{task}, with fresh numbers"),
+        _ => task.to_owned(),
     }
 }
 

@@ -50,8 +50,12 @@ pub fn transcript(lesson: &Arc<Lesson>, record: Option<&Record>) -> String {
             line(&mut out, &format!("## {}", here.title()));
             stage = Some(here);
         }
-        if !heading.is_empty() && heading != here.title() {
-            line(&mut out, &format!("### {}", escape(&heading)));
+        if !heading.is_empty() {
+            let number = match session.place(screen) {
+                (_, 1) => String::new(),
+                (at, of) => format!("{at} of {of}: "),
+            };
+            line(&mut out, &format!("### {number}{}", escape(&heading)));
         }
         for block in &blocks {
             write_block(&mut out, block);
