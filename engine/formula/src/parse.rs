@@ -179,6 +179,10 @@ impl Parser<'_> {
             _ => excerpt(right.of(self.text)),
         };
         let left = left.of(self.text);
+        if Builtin::named(left).is_some() {
+            let message = format!("{left} needs its argument in parentheses");
+            return Error::new(span, message).help(format!("write {left}(…)"));
+        }
         let tail = match left.char_indices().rev().nth(23) {
             Some((cut, _)) => format!("…{}", &left[cut..]),
             None => left.to_string(),

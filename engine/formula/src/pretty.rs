@@ -189,10 +189,10 @@ impl<'a> Board<'a> {
                 (text, _) => (format!("√({text})"), binding::POWER),
             },
             (Builtin::Abs, [arg]) => (format!("|{}|", self.write(&arg.value)), binding::ATOM),
-            (Builtin::Deg, [arg]) => (
-                format!("{}°", self.at_least(&arg.value, binding::ATOM)),
-                binding::POWER,
-            ),
+            (Builtin::Deg, [arg]) => match self.part(&arg.value) {
+                (text, binding::ATOM | binding::NEG) => (format!("{text}°"), binding::NEG),
+                (text, _) => (format!("({text})°"), binding::POWER),
+            },
             (Builtin::Log2, _) => (format!("log₂({})", list()), binding::ATOM),
             _ => (format!("{}({})", builtin.name(), list()), binding::ATOM),
         }

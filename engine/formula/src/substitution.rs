@@ -15,6 +15,9 @@ const MOST_LINES: usize = 3;
 /// Wider lines are left out where a shorter one follows.
 const WIDEST: usize = 70;
 
+/// The line in symbols may fill a terminal of 80 columns.
+const WIDEST_SYMBOLS: usize = 76;
+
 /// A definition opened inside a definition inside … is shown from this level on.
 const MOST_OPENED: usize = 4;
 
@@ -86,6 +89,10 @@ impl Library {
         match self.core_call(body, &values)? {
             Some(call) => lines.push(line.write(&call)),
             None => lines.extend(line.steps(&self.put_in(body, &values)?)?),
+        }
+        // Symbols that do not fit a line explain nothing.
+        if lines.len() > 1 && lines[0].chars().count() > WIDEST_SYMBOLS {
+            lines.remove(0);
         }
         Ok(Substitution {
             lines,
@@ -260,7 +267,9 @@ impl Lines<'_> {
     /// Every operation up to a level replaced by its value.
     fn done(&self, expr: &Expr, level: usize) -> Result<Expr, Error> {
         let own = height(expr);
-        if own > 0 && own <= level {
+        // An angle stays in degrees until the function that takes it is worked out.
+        let angle = matches!(&expr.node, Node::Call { name, .. } if name == "deg");
+        if own > 0 && own <= level && !angle {
             return Ok(signed(self.library.eval(expr, &Values::new())?));
         }
         self.inside(expr, level)

@@ -35,6 +35,11 @@ fn what_cannot_be_read_is_pointed_at() {
         ),
         ("(1)(2)", "(1)(", "\"(1) (…)\": write the product with *"),
         (
+            "2 * sqrt 3",
+            "sqrt 3",
+            "sqrt needs its argument in parentheses; write sqrt(…)",
+        ),
+        (
             "n_dot_l 2",
             "n_dot_l 2",
             "\"n_dot_l 2\": write the product with *",
