@@ -219,7 +219,7 @@ impl Dag {
                 "0 to a negative power".to_string()
             }
             Op::Pow(base, exponent) if value(*base) < 0.0 => format!(
-                "{}^{}: a negative number has only whole powers",
+                "({})^{}: a negative number has only whole powers",
                 plain(value(*base)),
                 plain(value(*exponent))
             ),

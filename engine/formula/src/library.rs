@@ -91,8 +91,9 @@ impl Library {
     pub(crate) fn with_body(&self, name: &str, body: &Expr) -> Library {
         let mut library = self.clone();
         if let Some(definition) = library.definitions.get_mut(name) {
-            definition.body = body.clone();
             definition.text = body.to_string();
+            // Read again, so that spans point into the new text.
+            definition.body = parse(&definition.text).unwrap_or_else(|_| body.clone());
         }
         library
     }

@@ -117,13 +117,15 @@ const POINTS: usize = 64;
 
 impl Library {
     /// One edit each, in the expression or in a definition it uses; the most common kinds
-    /// of slip first. Other dot products are those that the formula needs anyway:
-    /// [`Library::distinct_mutants`] knows all that are given.
+    /// of slip first. One dot product is taken for another only where the formula needs
+    /// both; see [`Library::mutants_given`].
     pub fn mutants(&self, expr: &Expr) -> Vec<Mutant> {
-        self.mutants_among(expr, &[])
+        self.mutants_given(expr, &[])
     }
 
-    fn mutants_among(&self, expr: &Expr, given: &[&str]) -> Vec<Mutant> {
+    /// The same where more is given than the formula needs: who computes `s(c = n_dot_v)`
+    /// with N·L on the same sheet may take the wrong one.
+    pub fn mutants_given(&self, expr: &Expr, given: &[&str]) -> Vec<Mutant> {
         let mut names = self.needs(expr);
         names.extend(given.iter().map(ToString::to_string));
         let names: Vec<String> = names.into_iter().collect();
@@ -194,7 +196,7 @@ impl Library {
     /// points of the ranges `(name, least, most)`; nor those that have no value at any.
     pub fn distinct_mutants(&self, expr: &Expr, ranges: &[(&str, f64, f64)]) -> Vec<Mutant> {
         let names: Vec<&str> = ranges.iter().map(|(name, ..)| *name).collect();
-        let mutants = self.mutants_among(expr, &names);
+        let mutants = self.mutants_given(expr, &names);
         let points = spread(ranges);
         let values = |library: &Library, expr: &Expr| -> Option<Vec<f64>> {
             let program = library.compile(expr, &names).ok()?;

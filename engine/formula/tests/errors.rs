@@ -196,7 +196,7 @@ fn a_value_outside_a_domain_is_pointed_at() {
         (
             "(-8)^0.5",
             "(-8)^0.5",
-            "-8^0.5: a negative number has only whole powers",
+            "(-8)^0.5: a negative number has only whole powers",
         ),
         ("zero^-1", "zero^-1", "0 to a negative power"),
         (
