@@ -134,13 +134,14 @@ impl Session {
         let mut effects: Vec<Effect> = self.pending.drain(..).map(Effect::Save).collect();
         let decided = self.decide(msg);
         effects.extend(decided.events.into_iter().map(Effect::Save));
+        // Only events change what there is to see.
         if !effects.is_empty() {
             self.view.saving = Saving::Waiting;
+            self.refresh();
         }
         if let Some(saving) = decided.saving {
             self.view.saving = saving;
         }
-        self.refresh();
         self.view.note = decided.note;
         if self.view.key != key {
             effects.extend(self.pictures());
