@@ -53,7 +53,10 @@ pub enum Action {
     Edit(Edit),
     Paste(String),
     Help,
+    /// Out of this screen.
     Quit,
+    /// Ctrl-C: out of the program, from wherever.
+    QuitAll,
     /// Draw again: the size changed.
     Redraw,
     /// Nothing means anything here.
@@ -74,7 +77,7 @@ fn of_key(key: KeyEvent, focus: Focus) -> Action {
     let control = key.modifiers.contains(KeyModifiers::CONTROL);
     if control {
         match key.code {
-            KeyCode::Char('c') => return Action::Quit,
+            KeyCode::Char('c') => return Action::QuitAll,
             KeyCode::Char('t') => return Action::Hint,
             KeyCode::Char('l') => return Action::Redraw,
             _ => {}

@@ -99,6 +99,8 @@ impl App<'_> {
                 terminal.draw(|frame| self.draw(frame)).map_err(broken)?;
                 // After the first frame, so that it need not wait for the terminal's answer.
                 self.want_pictures();
+                #[cfg(debug_assertions)]
+                panic_where_a_test_asks();
             }
             redraw = false;
             if event::poll(self.wakes_in()).map_err(broken)? {
@@ -155,12 +157,17 @@ impl App<'_> {
     }
 
     fn act(&mut self, action: Action) -> Result<Flow, Failure> {
+        if action == Action::QuitAll {
+            return Ok(match &mut self.screen {
+                Screen::Lesson(lesson) => lesson.act(Action::Quit),
+                Screen::Picker(_) => Flow::Leave,
+            });
+        }
         if let Some(scroll) = self.help {
             self.help = match action {
                 Action::Leave => None,
                 Action::Up => Some(scroll.saturating_sub(1)),
                 Action::Down => Some(scroll + 1),
-                Action::Quit => return Ok(self.leave_now()),
                 _ => Some(scroll),
             };
             return Ok(Flow::Stay);
@@ -194,13 +201,6 @@ impl App<'_> {
                 self.screen = Screen::Picker(picker);
                 Ok(Flow::Stay)
             }
-        }
-    }
-
-    fn leave_now(&mut self) -> Flow {
-        match &mut self.screen {
-            Screen::Lesson(lesson) => lesson.act(Action::Quit),
-            Screen::Picker(_) => Flow::Leave,
         }
     }
 
@@ -265,4 +265,13 @@ impl App<'_> {
             ))),
         }
     }
+}
+
+/// So that a test can see that a panic gives the terminal back.
+#[cfg(debug_assertions)]
+fn panic_where_a_test_asks() {
+    assert!(
+        std::env::var_os("LOBE_TEST_PANIC").is_none(),
+        "a test asked for a panic"
+    );
 }

@@ -1,0 +1,181 @@
+//! The screen: any size, given back whatever happens.
+
+mod common;
+
+use std::fs;
+
+use common::{Terminal, signal};
+
+fn learn(home: &std::path::Path, size: (u16, u16)) -> Terminal {
+    let folder = home.join("p").display().to_string();
+    Terminal::start(
+        home,
+        size,
+        &["learn", "smith-g2", "--seed", "7", "--progress", &folder],
+    )
+}
+
+#[test]
+fn the_list_opens_a_lesson_and_comes_back() {
+    let home = tempfile::tempdir().expect("a folder");
+    let folder = home.path().join("p").display().to_string();
+    let mut terminal = Terminal::start(home.path(), (80, 24), &["--progress", &folder]);
+    terminal.wait_for("q quit");
+    terminal.wait_for("Smith G2");
+    terminal.send("j\r");
+    terminal.wait_for("Enter on");
+    terminal.send("?");
+    terminal.wait_for("Esc closes");
+    terminal.send("\u{1b}");
+    terminal.wait_until("the help to close", |screen| !screen.contains("Esc closes"));
+    terminal.send("\r");
+    terminal.wait_for("✓ saved");
+    terminal.send("q");
+    terminal.wait_for("in progress");
+    terminal.send("q");
+    assert_eq!(terminal.wait(), 0);
+}
+
+#[test]
+fn every_size_is_drawn() {
+    for size in [(200, 60), (80, 24), (40, 12), (20, 5), (1, 1)] {
+        let home = tempfile::tempdir().expect("a folder");
+        let mut terminal = learn(home.path(), size);
+        if size.0 >= 40 {
+            terminal.wait_for("Smith G2");
+        } else if size.0 >= 20 {
+            terminal.wait_for("lobe needs");
+        }
+        terminal.send("\r\r\r");
+        terminal.resize(20, 5);
+        terminal.wait_for("lobe needs");
+        terminal.resize(100, 30);
+        terminal.wait_for("Smith G2");
+        terminal.send("q");
+        assert_eq!(terminal.wait(), 0, "{size:?}");
+    }
+}
+
+#[test]
+fn signals_save_and_give_the_terminal_back() {
+    for name in ["TERM", "INT", "HUP"] {
+        let home = tempfile::tempdir().expect("a folder");
+        let mut terminal = learn(home.path(), (80, 24));
+        terminal.wait_for("Enter on");
+        assert_eq!(terminal.modes().0, true, "the alternate screen");
+        terminal.send("\r");
+        terminal.wait_for("✓ saved");
+        signal(terminal.process(), name);
+        terminal.wait();
+        assert_eq!(
+            terminal.modes(),
+            (false, false),
+            "{name}: the screen is back, the cursor shows"
+        );
+        assert!(
+            terminal.raw().contains("\u{1b}[?2004l"),
+            "{name}: pasting is as it was"
+        );
+    }
+}
+
+#[cfg(debug_assertions)]
+#[test]
+fn a_panic_gives_the_terminal_back_before_it_is_told() {
+    let home = tempfile::tempdir().expect("a folder");
+    let args = ["learn", "smith-g2"];
+    let mut terminal =
+        Terminal::start_with(home.path(), (80, 24), &args, &[("LOBE_TEST_PANIC", "1")]);
+    terminal.wait();
+    assert_eq!(terminal.modes(), (false, false));
+    let raw = terminal.raw();
+    let back = raw
+        .rfind("\u{1b}[?1049l")
+        .expect("the screen is given back");
+    let told = raw.find("panicked").expect("it is told");
+    assert!(back < told, "{raw}");
+}
+
+#[test]
+fn no_color_leaves_no_colour() {
+    let home = tempfile::tempdir().expect("a folder");
+    let folder = home.path().join("p").display().to_string();
+    let args = ["learn", "smith-g2", "--progress", &folder];
+    let mut terminal = Terminal::start_with(home.path(), (80, 24), &args, &[("NO_COLOR", "1")]);
+    terminal.wait_for("Enter on");
+    terminal.send("\r");
+    terminal.wait_for("✓ saved");
+    terminal.send("q");
+    terminal.wait();
+    let raw = terminal.raw();
+    let coloured = (30..=37)
+        .chain(90..=97)
+        .any(|code| raw.contains(&format!("\u{1b}[{code}m")) || raw.contains(&format!(";{code}m")));
+    assert!(!coloured && !raw.contains("[38;"), "{raw:?}");
+}
+
+#[test]
+fn a_picture_appears_and_the_learner_moves_on() {
+    let home = tempfile::tempdir().expect("a folder");
+    let mut terminal = learn(home.path(), (200, 60));
+    terminal.wait_for("Enter on");
+    for _ in 0..40 {
+        if terminal.text().contains("log2 of the ratio") {
+            break;
+        }
+        let before = terminal.text();
+        terminal.send("G\r");
+        terminal.wait_until("another screen", |screen| screen != before);
+    }
+    // Half-blocks: what every terminal has.
+    terminal.wait_for("▀▀▀▀");
+    terminal.send("G\r");
+    terminal.wait_until("the picture to go", |screen| {
+        !screen.contains("log2 of the ratio")
+    });
+    terminal.send("q");
+    assert_eq!(terminal.wait(), 0);
+}
+
+#[test]
+fn what_cannot_be_saved_is_kept_and_said_and_saved_later() {
+    let home = tempfile::tempdir().expect("a folder");
+    let blocked = home.path().join("p");
+    fs::write(&blocked, "a file where the folder should be").expect("writable");
+    let mut terminal = learn(home.path(), (80, 24));
+    terminal.wait_for("cannot be saved");
+    terminal.send("\r");
+    terminal.wait_for("✗ not saved");
+    terminal.send("q");
+    terminal.wait_for("q again leaves");
+    terminal.send("x");
+    fs::remove_file(&blocked).expect("ours");
+    terminal.wait_for("✓ saved");
+    assert!(blocked.is_dir());
+    terminal.send("q");
+    assert_eq!(terminal.wait(), 0);
+}
+
+#[test]
+fn a_broken_lesson_is_named_and_the_others_open() {
+    let home = tempfile::tempdir().expect("a folder");
+    let lessons = home.path().join("lessons");
+    fs::create_dir(&lessons).expect("writable");
+    for file in ["01-ggx-d.toml", "02-smith-g2.toml"] {
+        fs::copy(common::lessons().join(file), lessons.join(file)).expect("writable");
+    }
+    fs::write(
+        lessons.join("03-broken.toml"),
+        "format = 1\nid = \"broken\"\ntitle = \n",
+    )
+    .expect("writable");
+    let lessons = lessons.display().to_string();
+    let folder = home.path().join("p").display().to_string();
+    let args = ["--lessons", &lessons, "--progress", &folder];
+    let mut terminal = Terminal::start(home.path(), (160, 40), &args);
+    terminal.wait_for("03-broken.toml:3:");
+    terminal.send("\r");
+    terminal.wait_for("Enter on");
+    terminal.send("\u{3}");
+    assert_eq!(terminal.wait(), 0);
+}
