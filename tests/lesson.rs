@@ -103,8 +103,8 @@ impl Learner {
             Input::Text { .. } => Deed::Explain(self.explanation(session)),
             Input::Choice { options } => {
                 let right = (0..options.len()).find(|at| {
-                    let letter = char::from(b'a' + *at as u8).to_string();
-                    attempt(session, &letter).is_some_and(|(_, _, _, result)| result == "correct")
+                    attempt(session, &(at + 1).to_string())
+                        .is_some_and(|(_, _, _, result)| result == "correct")
                 });
                 Deed::Choose(right.expect("one option is right"))
             }
@@ -183,7 +183,7 @@ impl Learner {
             Deed::Line(text) => terminal.send(&format!("{text}\r")),
             // Pasted, as line breaks are text there.
             Deed::Explain(text) => terminal.send(&format!("\x1b[200~{text}\x1b[201~\x13")),
-            Deed::Choose(at) => terminal.send(&format!("{}\r", char::from(b'a' + *at as u8))),
+            Deed::Choose(at) => terminal.send(&format!("{}\r", at + 1)),
             Deed::Sort(places) => terminal.send(&sorting(places)),
             Deed::TickAll(count) => terminal.send(&format!("{}\r", "y".repeat(*count))),
         }

@@ -62,7 +62,7 @@ fn signals_save_and_give_the_terminal_back() {
         let home = tempfile::tempdir().expect("a folder");
         let mut terminal = learn(home.path(), (80, 24));
         terminal.wait_for("Enter on");
-        assert_eq!(terminal.modes().0, true, "the alternate screen");
+        assert!(terminal.modes().0, "the alternate screen");
         terminal.send("\r");
         terminal.wait_for("✓ saved");
         signal(terminal.process(), name);

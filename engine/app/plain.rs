@@ -269,15 +269,14 @@ impl Plain {
             }
             Input::Choice { options } => {
                 for (index, option) in options.iter().enumerate() {
-                    let letter = char::from(b'a' + (index as u8).min(25));
                     lines.extend(text::wrap_plain(
                         option,
                         WIDTH,
-                        &format!("{letter}) "),
+                        &format!("{}. ", index + 1),
                         "   ",
                     ));
                 }
-                lines.push("[Type a letter]".into());
+                lines.push("[Type a number]".into());
             }
             Input::Order { items } => {
                 for (index, item) in items.iter().enumerate() {

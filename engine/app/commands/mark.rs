@@ -2,20 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use serde::Serialize;
 use tutor::exercise::mark;
+use tutor::exercise::report::MarkReport;
 
 use crate::cli::{Folders, Mark};
 use crate::exit::{Done, Failure};
 use crate::lessons::unknown;
 use crate::{output, text};
-
-#[derive(Serialize)]
-struct Marked<'a> {
-    result: &'a str,
-    mistake: Option<&'a str>,
-    says: &'a str,
-}
 
 pub fn run(folders: &Folders, args: &Mark) -> Result<Done, Failure> {
     let shelf = super::shelf(folders)?;
@@ -53,11 +46,7 @@ pub fn run(folders: &Folders, args: &Mark) -> Result<Done, Failure> {
         &earlier,
     );
     if args.json {
-        output::json(&Marked {
-            result: marking.result(),
-            mistake: marking.mistake(),
-            says: marking.says(),
-        })?;
+        output::json(&MarkReport::new(&marking))?;
     } else {
         let named = marking
             .mistake()

@@ -120,12 +120,12 @@ impl LessonScreen {
     /// What an action of the learner does.
     pub fn act(&mut self, action: Action) -> Flow {
         self.greeting.clear();
-        if self.leaving_unsaved.is_some() && action != Action::Quit {
+        if self.leaving_unsaved.is_some() && !matches!(action, Action::Quit | Action::QuitAll) {
             self.leaving_unsaved = None;
             return Flow::Stay;
         }
         match action {
-            Action::Quit => return self.leave(),
+            Action::Quit | Action::QuitAll => return self.leave(),
             Action::Enter => return self.enter(),
             Action::HandIn => return self.hand_in(),
             Action::Back => return self.send_if(self.shown.can.back, Msg::Back),
@@ -174,10 +174,7 @@ impl LessonScreen {
                 };
                 self.send(msg)
             }
-            (Focus::Options, Field::Choice { at }) => {
-                let letter = char::from(b'a' + u8::try_from(*at).unwrap_or(0).min(25));
-                self.send(Msg::Answer(letter.to_string()))
-            }
+            (Focus::Options, Field::Choice { at }) => self.send(Msg::Answer((at + 1).to_string())),
             (Focus::Options, Field::Order(order)) => self.send(Msg::Answer(order.answer())),
             (Focus::Options, Field::Checklist { .. }) => self.send(Msg::ChecklistDone),
             // What was not read yet comes first.

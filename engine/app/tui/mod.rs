@@ -159,7 +159,7 @@ impl App<'_> {
     fn act(&mut self, action: Action) -> Result<Flow, Failure> {
         if action == Action::QuitAll {
             return Ok(match &mut self.screen {
-                Screen::Lesson(lesson) => lesson.act(Action::Quit),
+                Screen::Lesson(lesson) => lesson.act(action),
                 Screen::Picker(_) => Flow::Leave,
             });
         }

@@ -107,8 +107,7 @@ pub fn draw(frame: &mut Frame, area: Rect, screen: &LessonScreen, palette: Palet
         Field::Choice { at } => {
             if let Input::Choice { options } = &view.input {
                 let rows = options.iter().enumerate().map(|(index, option)| {
-                    let letter = char::from(b'a' + (index as u8).min(25));
-                    (format!("{letter}) "), option.clone(), index == *at)
+                    (format!("{}. ", index + 1), option.clone(), index == *at)
                 });
                 list(frame, inner, rows.collect(), focused, palette);
             }
