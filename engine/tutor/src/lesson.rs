@@ -414,6 +414,8 @@ pub struct Variable {
 pub struct Exercise {
     /// `<lesson>/<slug>`.
     pub id: Text,
+    /// Heading; what there is to do where left out.
+    pub title: Option<Text>,
     /// The question (prose), with the drawn numbers in `{{ }}`.
     pub ask: Text,
     /// What is drawn.

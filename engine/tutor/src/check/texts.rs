@@ -48,6 +48,7 @@ pub fn check(checker: &mut Checker<'_>) {
     worked(checker);
     tables_and_plots(checker);
     for exercise in &lesson.exercises {
+        optional(checker, exercise.title.as_ref(), &Values::new());
         exercise_texts(checker, exercise);
     }
     if let Some(faded) = lesson.worked.as_ref().and_then(|it| it.faded.as_ref()) {

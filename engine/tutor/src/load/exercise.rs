@@ -42,6 +42,7 @@ pub fn read(table: &Table<'_, '_>, worked: Option<&Worked>) -> Option<Exercise> 
     let tolerance = read_tolerance(table, needs_number);
     let exercise = Exercise {
         id: table.need_text("id"),
+        title: table.text("title"),
         ask: table.need_text("ask"),
         draw: read_draw(table),
         where_: table.formula("where"),
@@ -81,6 +82,7 @@ pub fn read_faded(table: &Table<'_, '_>, lesson: &Text, lines: &[WorkedLine]) ->
             text: format!("{lesson}/worked"),
             place,
         },
+        title: None,
         ask,
         draw: read_draw(table),
         where_: table.formula("where"),

@@ -75,6 +75,7 @@ fn heading(screen: &Screen, exercise: &Exercise, problem: &Problem) -> String {
         Task::Order { .. } => "Put them in order",
         Task::FindTheMistake { .. } => "Find the mistake",
     };
+    let task = exercise.title.as_ref().map_or(task, |title| &title.text);
     match screen {
         Screen::Retest(_) => format!("{task}, with fresh numbers"),
         _ => task.to_owned(),
