@@ -178,7 +178,7 @@ pub struct View {
     pub next_label: String,
     /// What `Msg::Skip` does: "skip this exercise"; empty where nothing can be skipped.
     pub skip_label: String,
-    /// One line about the last key or about coming back; gone with the next message.
+    /// One line about the last message; gone with the next.
     pub note: Option<String>,
     /// Whether all this is saved.
     pub saving: Saving,

@@ -124,7 +124,6 @@ impl Session {
         if !events.is_empty() && session.pending.is_empty() {
             session.view.saving = Saving::Saved;
         }
-        session.view.note.clone_from(&notice);
         (session, notice)
     }
 

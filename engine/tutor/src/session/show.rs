@@ -201,10 +201,18 @@ impl Session {
 
     /// Position of a screen within its stage, from 1, and how many the stage has.
     pub(super) fn place(&self, here: &Screen) -> (usize, usize) {
+        if let Screen::Reteach { item, name } = here {
+            let explain = self.lesson.explain(item).zip(self.questions.get(item));
+            let names =
+                explain.map(|(explain, question)| question.reteaches(&self.lesson, explain));
+            let names = names.unwrap_or_default();
+            let at = names.iter().position(|other| other == name).unwrap_or(0);
+            return (at + 1, names.len().max(1));
+        }
         let stage = here.base_stage(&self.lesson);
         let of_stage = |screen: &&Screen| screen.base_stage(&self.lesson) == stage;
         let item = |screen: &Screen| match screen {
-            Screen::Explain { item, .. } | Screen::Reteach { item, .. } => Some(item.clone()),
+            Screen::Explain { item, .. } => Some(item.clone()),
             _ => None,
         };
         let same = |screen: &Screen| {

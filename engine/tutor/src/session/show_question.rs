@@ -97,8 +97,8 @@ fn feedback(
         }
         return blocks;
     }
-    blocks.extend(missing(lesson, explain, tried));
     if attempt == 1 {
+        blocks.extend(missing(lesson, explain, tried));
         let names = question.reteaches(lesson, explain);
         let names: Vec<&str> = names
             .iter()

@@ -164,11 +164,29 @@ fn a_changed_lesson_says_so_once() {
              you did before it is kept."
         )
     );
-    assert_eq!(s.screen().note, notice);
+    assert_eq!(s.screen().note, None, "whoever resumes says it");
     assert_eq!(s.screen().key, "worked");
     assert_eq!(s.screen().next_label, "next line");
     log.extend(send(&mut s, [Msg::Back]));
     assert_eq!(s.screen().key, "step:2");
     let (s, notice) = Session::resume(small(), start, "other", &log);
     assert_eq!((s.screen().key.as_str(), notice), ("step:2", None));
+}
+
+#[test]
+fn what_was_left_out_can_be_made_good_after_the_result() {
+    let mut s = begin();
+    walk_to(&mut s, "result");
+    send(&mut s, [Msg::Back]);
+    assert_eq!(s.screen().key, "explain:small/retest:1");
+    let cube = answer("It multiplies the number by itself twice.");
+    let saved = send(&mut s, [cube, Msg::Next]);
+    let words = "NOT YET: still open are “What is a square?” and re-test 1";
+    assert!(
+        matches!(saved.last(), Some(Event::Finished { words: now, .. }) if now == words),
+        "{saved:#?}"
+    );
+    assert_eq!(s.outcome().words, words);
+    let saved = send(&mut s, [Msg::Back, Msg::Next]);
+    assert_eq!(saved.len(), 2, "looking back changes nothing: {saved:#?}");
 }
