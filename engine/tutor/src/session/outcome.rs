@@ -130,17 +130,22 @@ impl Session {
     }
 
     fn items(&self) -> Vec<ItemOutcome> {
+        let titled = |item: &str| {
+            let title = self.lesson.exercise(item)?.title.as_ref()?;
+            Some(format!("“{}”", title.text))
+        };
         let mut numbers = (0, 0);
         let mut items = Vec::new();
         for screen in &self.path {
             let title = match screen {
-                Screen::Practice(_) => {
+                Screen::Practice(item) => {
                     numbers.0 += 1;
-                    format!("exercise {}", numbers.0)
+                    titled(item).unwrap_or_else(|| format!("exercise {}", numbers.0))
                 }
-                Screen::Retest(_) => {
+                Screen::Retest(item) => {
                     numbers.1 += 1;
-                    format!("re-test {}", numbers.1)
+                    let titled = titled(item).map(|title| format!("{title} with fresh numbers"));
+                    titled.unwrap_or_else(|| format!("re-test {}", numbers.1))
                 }
                 Screen::Explain { item, .. } => {
                     let explain = self.lesson.explain(item);
