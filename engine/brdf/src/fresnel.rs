@@ -333,6 +333,28 @@ fn conductor<R: Real>(n: R, k: R, v_dot_h: R) -> (R, R) {
     (half * r_s * (one + p), t_s + half * r_s * one_minus_p)
 }
 
+/// [`f_conductor`] in three colours.
+#[inline(always)]
+pub fn conductor_rgb<R: Real>(n: [R; 3], k: [R; 3], v_dot_h: R) -> [R; 3] {
+    [0, 1, 2].map(|i| f_conductor(n[i], k[i], v_dot_h))
+}
+
+/// Reflectance at normal incidence of a material given by base colour and metallic:
+/// lerp(0.04, base, metallic).
+///
+/// Burley 2012; Karis 2013. 0.04 is a dielectric of index 1.5.
+#[inline(always)]
+pub fn f0_from_metallic<R: Real>(base_color: [R; 3], metallic: R) -> [R; 3] {
+    let m = metallic.clamp_unit();
+    base_color.map(|base| lit::<R>(0.04) * (lit::<R>(1.0) - m) + base * m)
+}
+
+/// Schlick's reflectance averaged over the cosine-weighted hemisphere: (1 + 20 f0)/21.
+#[inline(always)]
+pub fn f_schlick_average<R: Real>(f0: R) -> R {
+    (lit::<R>(1.0) + lit::<R>(20.0) * f0) / lit(21.0)
+}
+
 const N: Param = Param {
     name: "n",
     range: (0.05, 4.0),

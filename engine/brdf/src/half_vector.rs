@@ -1,9 +1,10 @@
 //! The half vector without the half vector: cosines from cosines.
 
 use crate::real::{Real, lit, zero_unless_nan};
-use crate::term::{L_DOT_V, N_DOT_L, N_DOT_V, Term, entry};
+use crate::term::{ALPHA, L_DOT_V, N_DOT_L, N_DOT_V, Param, Term, entry};
+use crate::vector::{Vector, add, dot, normalize, reflect};
 
-pub(crate) const TERMS: &[Term] = &[N_DOT_H_FROM, V_DOT_H_FROM];
+pub(crate) const TERMS: &[Term] = &[N_DOT_H_FROM, V_DOT_H_FROM, ALPHA_FILTERED];
 
 /// N·H = (N·L + N·V)/|L + V|, |L + V| = sqrt(2 + 2 L·V).
 ///
@@ -51,3 +52,121 @@ const V_DOT_H_FROM: Term = entry!(
     return sqrt(0.5 + 0.5 * clamp(l_dot_v, -1.0, 1.0));
 }")
 );
+
+/// α widened by the variance of the normal within a pixel: α'² = min(1, α² + min(2 σ², 0.18)).
+///
+/// Tokuyoshi and Kaplanyan 2019, eq. 5 and 7; Real-Time Rendering, 4th edition, eq. 9.76. σ²
+/// is the variance of the slopes under the pixel's filter; 0.18 keeps a pixel that holds an
+/// edge from turning everything rough.
+#[inline(always)]
+pub fn alpha_filtered<R: Real>(alpha: R, variance: R) -> R {
+    let kernel = (lit::<R>(2.0) * variance.at_least(lit(0.0))).at_most(lit(0.18));
+    (alpha.clamp_unit().squared() + kernel)
+        .at_most(lit(1.0))
+        .sqrt()
+}
+
+const VARIANCE: Param = Param {
+    name: "variance",
+    range: (0.0, 0.2),
+    unit: "1",
+    meaning: "variance of the normal's slopes within a pixel",
+};
+
+const ALPHA_FILTERED: Term = entry!(
+    alpha_filtered(alpha: ALPHA, variance: VARIANCE),
+    symbol: "α′", latex: r"\alpha'", cost: 9,
+    doc: "alpha widened by the variance of the normal within a pixel (specular anti-aliasing)",
+    source: "Tokuyoshi and Kaplanyan 2019, eq. 5 and 7; Real-Time Rendering 4, eq. 9.76",
+    wgsl: Some("fn lobe_alpha_filtered(alpha: f32, variance: f32) -> f32 {
+    return sqrt(min(alpha * alpha + min(2.0 * max(variance, 0.0), 0.18), 1.0));
+}")
+);
+
+/// Rusinkiewicz coordinates of an isotropic BRDF, in radians.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rusinkiewicz<R> {
+    /// Between the normal and the half vector, 0 to π/2.
+    pub theta_h: R,
+    /// Between the half vector and the light, 0 to π/2.
+    pub theta_d: R,
+    /// Azimuth of the light around the half vector, 0 to π where it mirrors (−π to π).
+    pub phi_d: R,
+}
+
+impl<R: Real> Rusinkiewicz<R> {
+    /// Coordinates of a light and a view of length 1 in the tangent frame.
+    ///
+    /// Rusinkiewicz 1998. Angles by the arc tangent, which keeps small ones. Where l = −v there
+    /// is no half vector; the normal stands in for it.
+    pub fn new(l: impl Into<Vector<R>>, v: impl Into<Vector<R>>) -> Rusinkiewicz<R> {
+        let l = l.into();
+        let h = normalize(add(l, v.into()));
+        let across = h[0].hypot(h[1]);
+        let (cos, sin) = if across > lit(0.0) {
+            (h[0] / across, h[1] / across)
+        } else {
+            (lit(1.0), lit(0.0))
+        };
+        // Turned so that h lies in the xz plane, then so that it is the pole.
+        let x = cos * l[0] + sin * l[1];
+        let y = cos * l[1] - sin * l[0];
+        let d = [x * h[2] - l[2] * across, y, x * across + l[2] * h[2]];
+        Rusinkiewicz {
+            theta_h: across.atan2(h[2]),
+            theta_d: d[0].hypot(d[1]).atan2(d[2]),
+            phi_d: d[1].atan2(d[0]),
+        }
+    }
+
+    /// A light and a view with these coordinates, the half vector in the xz plane.
+    pub fn directions(self) -> (Vector<R>, Vector<R>) {
+        let (sin_h, cos_h) = (self.theta_h.sin(), self.theta_h.cos());
+        let sin_d = self.theta_d.sin();
+        let d = [
+            sin_d * self.phi_d.cos(),
+            sin_d * self.phi_d.sin(),
+            self.theta_d.cos(),
+        ];
+        let l = [
+            d[0] * cos_h + d[2] * sin_h,
+            d[1],
+            d[2] * cos_h - d[0] * sin_h,
+        ];
+        (l, reflect(l, [sin_h, lit(0.0), cos_h]))
+    }
+}
+
+/// D of GGX from a normal, a light and a view in world space, each of length 1.
+///
+/// sin² of the half vector is |n × (l + v)|², each component a difference of products kept
+/// exactly: even so, half a unit in the last place of n, l or v changes D of a smooth surface
+/// by thousands of units. 0 below the horizon.
+pub fn d_ggx_world<R: Real>(
+    n: impl Into<Vector<R>>,
+    l: impl Into<Vector<R>>,
+    v: impl Into<Vector<R>>,
+    alpha: R,
+) -> R {
+    let (n, h) = (n.into(), add(l.into(), v.into()));
+    let c = dot(n, h);
+    if c < lit(0.0) {
+        return zero_unless_nan([c, alpha]);
+    }
+    let difference = |a: R, b: R, c: R, d: R| {
+        let ((p, p_low), (q, q_low)) = (a.two_prod(b), c.two_prod(d));
+        (p - q) + (p_low - q_low)
+    };
+    let cross = [
+        difference(n[1], h[2], n[2], h[1]),
+        difference(n[2], h[0], n[0], h[2]),
+        difference(n[0], h[1], n[1], h[0]),
+    ];
+    let (s, c2) = (dot(cross, cross), c * c);
+    let t = s + alpha * alpha * c2;
+    if t == lit(0.0) {
+        return lit::<R>(1.0) / t;
+    }
+    let q = alpha * (s + c2) / t;
+    q * q * lit(std::f64::consts::FRAC_1_PI)
+}

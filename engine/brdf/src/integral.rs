@@ -115,6 +115,13 @@ impl Rule {
 static COARSE: LazyLock<Rule> = LazyLock::new(|| Rule::new(30));
 static FINE: LazyLock<Rule> = LazyLock::new(|| Rule::new(128));
 
+static AVERAGE: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| gauss_legendre(24));
+
+/// Nodes and weights of an average over the views.
+pub(crate) fn average_nodes() -> &'static [(f64, f64)] {
+    &AVERAGE
+}
+
 /// ∫ D V N·L dω with `visibility` for V as a function of N·L, over the directions l above
 /// the horizon.
 ///

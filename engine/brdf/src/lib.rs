@@ -14,22 +14,30 @@
 
 pub mod d;
 pub mod diffuse;
+pub mod energy;
 pub mod fresnel;
+pub mod ggx;
 pub mod gsf;
 pub mod half_vector;
 pub mod integral;
 pub mod real;
 pub mod smith;
 pub mod term;
+pub mod vector;
 pub mod whole;
 
 pub use d::*;
 pub use diffuse::*;
+pub use energy::*;
 pub use fresnel::*;
+pub use ggx::*;
 pub use gsf::*;
 pub use half_vector::*;
 pub use integral::*;
 pub use real::Real;
 pub use smith::*;
 pub use term::{Param, Term, term, terms};
+pub use vector::Vector;
 pub use whole::*;
+
+pub use glam;

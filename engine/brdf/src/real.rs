@@ -47,6 +47,8 @@ pub trait Real:
     fn ln_1p(self) -> Self;
     /// `self` to the power `y`.
     fn powf(self, y: Self) -> Self;
+    /// Sine of an angle in radians.
+    fn sin(self) -> Self;
     /// Cosine of an angle in radians.
     fn cos(self) -> Self;
     /// Arc sine in radians.
@@ -55,8 +57,8 @@ pub trait Real:
     fn acos(self) -> Self;
     /// Arc tangent in radians.
     fn atan(self) -> Self;
-    /// Complementary error function.
-    fn erfc(self) -> Self;
+    /// Angle of the point (x, self) to the x axis, −π to π.
+    fn atan2(self, x: Self) -> Self;
     /// Whether this is a NaN.
     fn is_nan(self) -> bool;
     /// Whether this is neither infinite nor a NaN.
@@ -202,6 +204,9 @@ impl Real for f64 {
     fn powf(self, y: f64) -> f64 {
         libm::pow(self, y)
     }
+    fn sin(self) -> f64 {
+        libm::sin(self)
+    }
     fn cos(self) -> f64 {
         libm::cos(self)
     }
@@ -214,8 +219,8 @@ impl Real for f64 {
     fn atan(self) -> f64 {
         libm::atan(self)
     }
-    fn erfc(self) -> f64 {
-        libm::erfc(self)
+    fn atan2(self, x: f64) -> f64 {
+        libm::atan2(self, x)
     }
     #[inline(always)]
     fn is_nan(self) -> bool {
@@ -265,6 +270,9 @@ impl Real for f32 {
     fn powf(self, y: f32) -> f32 {
         libm::powf(self, y)
     }
+    fn sin(self) -> f32 {
+        libm::sinf(self)
+    }
     fn cos(self) -> f32 {
         libm::cosf(self)
     }
@@ -277,8 +285,8 @@ impl Real for f32 {
     fn atan(self) -> f32 {
         libm::atanf(self)
     }
-    fn erfc(self) -> f32 {
-        libm::erfcf(self)
+    fn atan2(self, x: f32) -> f32 {
+        libm::atan2f(self, x)
     }
     #[inline(always)]
     fn is_nan(self) -> bool {

@@ -53,6 +53,7 @@ static TERMS: LazyLock<Vec<Term>> = LazyLock::new(|| {
         crate::diffuse::TERMS,
         crate::whole::TERMS,
         crate::integral::TERMS,
+        crate::energy::TERMS,
         crate::half_vector::TERMS,
     ]
     .concat()

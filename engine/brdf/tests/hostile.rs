@@ -109,12 +109,16 @@ fn integrals_take_anything() {
     for term in terms().iter().filter(|term| !cheap(term)) {
         for mu in ODD {
             for alpha in [0.0, 1e-30, 0.3, 1.0, 2.0, 1e10] {
-                let value = (term.f64)(&[mu, alpha]);
+                let args = [mu, alpha];
+                let value = (term.f64)(&args[args.len() - term.params.len()..]);
                 assert!(
                     !value.is_nan() && value >= 0.0,
                     "{}({mu}, {alpha}) = {value}",
                     term.name
                 );
+            }
+            if term.params.len() == 1 {
+                break;
             }
         }
     }

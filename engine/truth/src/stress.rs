@@ -124,9 +124,10 @@ impl Finding {
 pub fn bound(name: &str) -> f64 {
     match name {
         "f_schlick" | "f_schlick_ior" | "f_lazanyi" => 25.0,
+        "vector_f_schlick" | "vector_specular" => 25.0,
         "diffuse_oren_nayar_full" | "diffuse_eon" => 25.0,
-        // As printed, with differences nobody asked to keep.
-        "gsf_modified_kelemen" => 16.0,
+        // A whole density, and a form as printed with differences nobody asked to keep.
+        "vector_pdf" | "gsf_modified_kelemen" => 16.0,
         _ => 12.0,
     }
 }
@@ -141,16 +142,16 @@ fn scale(name: &str, args: &[f64]) -> f64 {
     }
 }
 
-/// Terms this can measure: those with a closed form.
+/// What this can measure: the terms with a closed form, and the formulas from vectors.
 pub fn subjects() -> impl Iterator<Item = &'static Term> {
-    brdf::terms().iter().filter(|term| {
-        let middle: Vec<f64> = term
-            .params
-            .iter()
-            .map(|p| 0.5 * (p.range.0 + p.range.1))
-            .collect();
-        value(term.name, &middle).is_some()
-    })
+    brdf::terms()
+        .iter()
+        .chain(brdf::vector_terms())
+        .filter(|term| {
+            let inside = |p: &Param| 0.4 * p.range.0 + 0.6 * p.range.1;
+            let args: Vec<f64> = term.params.iter().map(inside).collect();
+            value(term.name, &args).is_some()
+        })
 }
 
 /// Looks for the worst point of a term. The same seed finds the same.
@@ -256,7 +257,7 @@ fn climb(
             precision.round(args[index] * (1.0 + share * (2.0 * numbers.unit() - 1.0)))
         };
         args[index] = moved.clamp(low, high);
-        if !possible(term, &args) {
+        if !possible(term, precision, &args) {
             continue;
         }
         let error = quick_error(term, precision, &args);
@@ -269,32 +270,76 @@ fn climb(
 /// A point of which every argument is likely to be near an end of its range.
 fn draw(term: &Term, precision: Precision, numbers: &mut Numbers) -> Vec<f64> {
     loop {
-        let args: Vec<f64> = term
+        let drawn = term
             .params
             .iter()
-            .map(|param| numbers.hard(param, precision))
-            .collect();
-        if possible(term, &args) {
+            .map(|param| numbers.hard(param, precision));
+        let mut args: Vec<f64> = drawn.collect();
+        draw_directions(term, precision, numbers, &mut args);
+        if possible(term, precision, &args) {
             return args;
         }
     }
 }
 
-/// Whether three cosines among the arguments can belong to two directions and a normal.
-fn possible(term: &Term, args: &[f64]) -> bool {
+/// Replaces components of vectors by those of directions: at random, close to the horizon,
+/// close to the normal, and close to mirrored or equal to the other direction.
+fn draw_directions(term: &Term, precision: Precision, numbers: &mut Numbers, args: &mut [f64]) {
+    let mut last: Option<[f64; 3]> = None;
+    for i in 0..args.len().saturating_sub(2) {
+        if !matches!(term.params[i].name, "l_x" | "v_x") {
+            continue;
+        }
+        let small = 1e-7f64.powf(numbers.unit());
+        let z = match (numbers.unit() * 3.0) as u32 {
+            0 => numbers.unit(),
+            1 => small,
+            _ => 1.0 - small,
+        };
+        let (sin, phi) = (
+            ((1.0 - z) * (1.0 + z)).sqrt(),
+            std::f64::consts::TAU * numbers.unit(),
+        );
+        let mut v = [sin * phi.cos(), sin * phi.sin(), z.max(1e-6)];
+        if let Some(l) = last.filter(|_| numbers.unit() < 0.6) {
+            let sign = if numbers.unit() < 0.5 { -1.0 } else { 1.0 };
+            let mut near = |x: f64| x + 1e-8f64.powf(numbers.unit()) * (numbers.unit() - 0.5);
+            v = [
+                near(sign * l[0]),
+                near(sign * l[1]),
+                near(l[2]).abs().max(1e-6),
+            ];
+        }
+        let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let v = v.map(|x| precision.round(x / length));
+        args[i..i + 3].copy_from_slice(&v);
+        last = Some(v);
+    }
+}
+
+/// Whether three cosines among the arguments can belong to two directions and a normal, and
+/// whether vectors are of length 1.
+fn possible(term: &Term, precision: Precision, args: &[f64]) -> bool {
     let get = |name| {
         term.params
             .iter()
             .position(|param| param.name == name)
             .map(|i| args[i])
     };
-    match (get("n_dot_l"), get("n_dot_v"), get("l_dot_v")) {
+    // What rounding each component leaves.
+    let length_error = 2.0 * (-precision.format().0 as f64 - 1.0).exp2();
+    let unit = |x, y, z| match (get(x), get(y), get(z)) {
+        (Some(x), Some(y), Some(z)) => (x * x + y * y + z * z - 1.0).abs() < length_error,
+        _ => true,
+    };
+    let cosines = match (get("n_dot_l"), get("n_dot_v"), get("l_dot_v")) {
         (Some(l), Some(v), Some(lv)) => {
             let sines = ((1.0 - l) * (1.0 + l) * (1.0 - v) * (1.0 + v)).sqrt();
             (lv - l * v).abs() <= sines
         }
         _ => true,
-    }
+    };
+    cosines && unit("l_x", "l_y", "l_z") && unit("v_x", "v_y", "v_z")
 }
 
 /// The range to look in: wider than the sensible one, to where the promises end.

@@ -1,0 +1,158 @@
+//! Energy that single scattering loses, and how it is put back.
+//!
+//! A microfacet BRDF with F = 1 returns E(μ) < 1: what meets the surface a second time is
+//! lost. Both remedies need E, by quadrature ([`albedo_ggx`]) or from a table of it.
+
+use crate::integral::albedo_ggx;
+use crate::real::{Real, lit, zero_unless_nan};
+use crate::term::{ALPHA, N_DOT_L, N_DOT_V, Param, Term, entry};
+use std::f64::consts::FRAC_1_PI;
+
+pub(crate) const TERMS: &[Term] = &[
+    ALBEDO_AVERAGE_GGX,
+    F_MULTI_KULLA_CONTY,
+    COMPENSATION_TURQUIN,
+];
+
+/// Average albedo of GGX with F = 1: 2 ∫ E(μ) μ dμ, height-correlated.
+///
+/// Kulla and Conty 2017. 1 for a mirror, (4 − 4 ln 2)/3 at α = 1. By quadrature of
+/// [`albedo_ggx`] in μ = y³, which spreads the grazing views.
+pub fn albedo_average_ggx<R: Real>(alpha: R) -> R {
+    if alpha.is_nan() {
+        return alpha;
+    }
+    let mut sum = lit::<R>(0.0);
+    for &(y, weight) in crate::integral::average_nodes() {
+        let y = lit::<R>(y);
+        let mu = y * y * y;
+        sum = sum + lit::<R>(6.0 * weight) * (y * y * mu) * albedo_ggx(mu, alpha);
+    }
+    sum
+}
+
+const ALBEDO_AVERAGE_GGX: Term = entry!(
+    albedo_average_ggx(alpha: ALPHA),
+    symbol: "E_avg", latex: r"E_{\mathrm{avg}}", cost: 4_000_000,
+    doc: "cosine-weighted average of the directional albedo of GGX with F = 1, 0 to 1",
+    source: "Kulla and Conty 2017; quadrature",
+    wgsl: None
+);
+
+/// The multiple-scattering lobe of Kulla and Conty: (1 − E(l))(1 − E(v))/(π (1 − E_avg)), in 1/sr.
+///
+/// Kulla and Conty 2017. Added to the BRDF with F = 1 it restores what is lost, exactly.
+/// Where nothing is lost (E_avg = 1) it is 0.
+pub fn f_multi_kulla_conty<R: Real>(albedo_l: R, albedo_v: R, albedo_average: R) -> R {
+    let one = lit::<R>(1.0);
+    let lost = |e: R| one - e.clamp_unit();
+    let average = lost(albedo_average);
+    if average == lit(0.0) {
+        return zero_unless_nan([albedo_l, albedo_v]);
+    }
+    lost(albedo_l) * lost(albedo_v) / average * lit(FRAC_1_PI)
+}
+
+const ALBEDO_L: Param = Param {
+    name: "albedo_l",
+    range: (0.0, 1.0),
+    meaning: "directional albedo of the light's direction",
+    ..N_DOT_L
+};
+const ALBEDO_V: Param = Param {
+    name: "albedo_v",
+    range: (0.05, 1.0),
+    meaning: "directional albedo of the view",
+    ..N_DOT_V
+};
+const ALBEDO_AVERAGE: Param = Param {
+    name: "albedo_average",
+    range: (0.0, 0.99),
+    meaning: "average albedo",
+    ..N_DOT_V
+};
+
+const F_MULTI_KULLA_CONTY: Term = entry!(
+    f_multi_kulla_conty(albedo_l: ALBEDO_L, albedo_v: ALBEDO_V, albedo_average: ALBEDO_AVERAGE),
+    symbol: "f_ms", latex: r"f_{\mathrm{ms}}", cost: 8,
+    doc: "multiple-scattering lobe of Kulla and Conty, in 1/sr",
+    source: "Kulla and Conty 2017",
+    wgsl: Some("fn lobe_f_multi_kulla_conty(albedo_l: f32, albedo_v: f32, albedo_average: f32) -> f32 {
+    return (1.0 - albedo_l) * (1.0 - albedo_v) / max(1.0 - albedo_average, 1.0e-6) * 0.31830988618379067;
+}")
+);
+
+/// The colour of that lobe: F_avg² E_avg/(1 − F_avg (1 − E_avg)).
+///
+/// Kulla and Conty 2017, with the power of F_avg as Hill corrected it (Jakob et al. 2014): the
+/// light that leaves after two and more bounces.
+pub fn multi_scattering_tint<R: Real>(f_average: R, albedo_average: R) -> R {
+    let one = lit::<R>(1.0);
+    let (f, e) = (f_average.clamp_unit(), albedo_average.clamp_unit());
+    if f == one {
+        return one;
+    }
+    f * f * e / (one - f * (one - e))
+}
+
+/// Turquin's factor on the whole single-scattering lobe: 1 + f0 (1 − E(v))/E(v).
+///
+/// Turquin 2019, eq. 16. Cheap and not reciprocal: only the view enters. With f0 = 1 the
+/// albedo becomes exactly 1. E(v) is expected to be more than 0.
+pub fn compensation_turquin<R: Real>(f0: R, albedo_v: R) -> R {
+    let one = lit::<R>(1.0);
+    let e = albedo_v.at_least(lit(R::TINY)).at_most(one);
+    one + f0.clamp_unit() * (one - e) / e
+}
+
+const COMPENSATION_TURQUIN: Term = entry!(
+    compensation_turquin(f0: crate::term::F0, albedo_v: ALBEDO_V),
+    symbol: "c_Turquin", latex: r"c_{\mathrm{Turquin}}", cost: 4,
+    doc: "Turquin's energy compensation: factor on the single-scattering lobe",
+    source: "Turquin 2019, eq. 16",
+    wgsl: Some("fn lobe_compensation_turquin(f0: f32, albedo_v: f32) -> f32 {
+    return 1.0 + f0 * (1.0 - albedo_v) / albedo_v;
+}")
+);
+
+/// A table of E over N·V and roughness, for callers that cannot wait for a quadrature.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AlbedoTable {
+    size: usize,
+    /// Row by row of constant roughness; entries at (i + ½)/size.
+    values: Vec<f32>,
+}
+
+impl AlbedoTable {
+    /// Computes `size`² entries, about 12 µs each.
+    pub fn new(size: usize) -> AlbedoTable {
+        let size = size.max(1);
+        let at = |i: usize| (i as f32 + 0.5) / size as f32;
+        let entry = |i: usize| albedo_ggx(at(i % size), at(i / size) * at(i / size));
+        AlbedoTable {
+            size,
+            values: (0..size * size).map(entry).collect(),
+        }
+    }
+
+    /// Entries, row by row of constant roughness, N·V along the row.
+    pub fn values(&self) -> &[f32] {
+        &self.values
+    }
+
+    /// E between the entries, bilinear; outside them the nearest.
+    pub fn get(&self, n_dot_v: f32, roughness: f32) -> f32 {
+        let last = self.size - 1;
+        let place = |x: f32| {
+            let x = (x * self.size as f32 - 0.5).clamp(0.0, last as f32);
+            let low = (x as usize).min(last);
+            (low, (low + 1).min(last), x - low as f32)
+        };
+        let ((i, i1, s), (j, j1, t)) = (place(n_dot_v), place(roughness));
+        let row = |j: usize| {
+            let at = |i: usize| self.values[j * self.size + i];
+            at(i) * (1.0 - s) + at(i1) * s
+        };
+        row(j) * (1.0 - t) + row(j1) * t
+    }
+}

@@ -1,0 +1,493 @@
+//! GGX from vectors in the tangent frame: evaluate, sample, density.
+//!
+//! Given vectors instead of cosines nothing cancels: sin²θ is x² + y², the half vector is
+//! used as l + v without its length, and 1 − V·H is |l − v|²/(4 (1 + V·H)). Directions are
+//! expected to have length 1 and to point away from the surface.
+
+use crate::fresnel::{conductor_rgb, f_dielectric};
+use crate::real::{Real, lit, zero_unless_nan};
+use crate::term::{ALPHA, F0, Param, Term, entry};
+use crate::vector::{Vector, add, normalize, reflect};
+use std::f64::consts::{FRAC_1_PI, PI};
+
+/// A GGX surface: its widths along the tangent and the bitangent.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ggx<R> {
+    /// Width along the tangent, more than 0.
+    pub alpha_x: R,
+    /// Width along the bitangent, more than 0.
+    pub alpha_y: R,
+}
+
+/// How to draw directions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sampler {
+    /// Visible normals from a projected hemisphere (Heitz 2018, JCGT 7-4).
+    Hemisphere,
+    /// The same normals from a spherical cap (Dupuy and Benyoub 2023, CGF 42-8, algorithm 1).
+    SphericalCap,
+    /// A cap without directions that must end below the horizon (Eto and Tokuyoshi 2023,
+    /// SIGGRAPH Asia technical communications). The best of them, but for α near 1.
+    BoundedCap,
+    /// Proportional to the cosine, without knowledge of the surface.
+    Cosine,
+}
+
+/// A drawn direction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample<R> {
+    /// The direction of the light. Below the horizon the weight is 0.
+    pub l: Vector<R>,
+    /// BRDF (F = 1) times N·L over the density.
+    pub weight: R,
+    /// Density with respect to the solid angle of `l`, in 1/sr.
+    pub pdf: R,
+}
+
+impl<R: Real> Ggx<R> {
+    /// The same width in all directions.
+    #[inline(always)]
+    pub fn new(alpha: R) -> Ggx<R> {
+        Ggx {
+            alpha_x: alpha,
+            alpha_y: alpha,
+        }
+    }
+
+    /// x and y of a vector, each times its width.
+    #[inline(always)]
+    fn stretched(&self, v: Vector<R>) -> (R, R) {
+        (self.alpha_x * v[0], self.alpha_y * v[1])
+    }
+
+    /// sqrt(z² + α_x² x² + α_y² y²), which is z sqrt(1 + α² tan²θ).
+    #[inline(always)]
+    pub fn projected(&self, v: impl Into<Vector<R>>) -> R {
+        let v = v.into();
+        let (x, y) = self.stretched(v);
+        (v[2] * v[2] + (x * x + y * y)).sqrt()
+    }
+
+    /// D of a half vector of any length, such as l + v.
+    ///
+    /// D = (m/(α_x α_y t))² α_x α_y/π with m = |h|², t = (h_x/α_x)² + (h_y/α_y)² + h_z²;
+    /// see [`crate::d_ggx_aniso`]. 0 below the horizon, and for a vector without length.
+    #[inline(always)]
+    pub fn d(&self, h: impl Into<Vector<R>>) -> R {
+        let h = h.into();
+        self.d_squares(h, h.map(|x| x * x))
+    }
+
+    /// D of the half vector of `l` and `v`, of which the sums' rounding errors are kept: it
+    /// costs a few operations and saves four units in the last place.
+    #[inline(always)]
+    pub fn d_between(&self, l: impl Into<Vector<R>>, v: impl Into<Vector<R>>) -> R {
+        let (l, v) = (l.into(), v.into());
+        let sum = [0, 1, 2].map(|i| l[i].two_sum(v[i]));
+        let squares = sum.map(|(high, low)| high * high + lit::<R>(2.0) * high * low);
+        self.d_squares(sum.map(|(high, _)| high), squares)
+    }
+
+    /// D of a half vector with its squared components.
+    #[inline(always)]
+    fn d_squares(&self, h: Vector<R>, [x, y, z]: Vector<R>) -> R {
+        if h[2] < lit(0.0) {
+            return zero_unless_nan(h);
+        }
+        // t times α_x α_y, without quotients where the widths are the same.
+        let product = self.alpha_x * self.alpha_y;
+        let across = if self.alpha_x == self.alpha_y {
+            x + y
+        } else {
+            x * (self.alpha_y / self.alpha_x) + y * (self.alpha_x / self.alpha_y)
+        };
+        let m = x + y + z;
+        if m == lit(0.0) {
+            return m;
+        }
+        let q = m / (across + product * z);
+        product * (q * q) * lit(FRAC_1_PI)
+    }
+
+    /// Λ of a direction, see [`crate::lambda_ggx`]; +∞ at and below the horizon.
+    #[inline(always)]
+    pub fn lambda(&self, v: impl Into<Vector<R>>) -> R {
+        let v = v.into();
+        if v[2] <= lit(0.0) {
+            return lit::<R>(1.0) / lit(0.0);
+        }
+        let (x, y) = self.stretched(v);
+        let z = v[2];
+        let s = x * x + y * y;
+        lit::<R>(0.5) * (s / z) / (z + (z * z + s).sqrt())
+    }
+
+    /// G₁ of a direction, see [`crate::g1_ggx`].
+    #[inline(always)]
+    pub fn g1(&self, v: impl Into<Vector<R>>) -> R {
+        let v = v.into();
+        if v[2] <= lit(0.0) {
+            return zero_unless_nan(v);
+        }
+        lit::<R>(2.0) * v[2] / (v[2] + self.projected(v))
+    }
+
+    /// Height-correlated visibility, see [`crate::v_ggx`]; 0 below the horizon.
+    #[inline(always)]
+    pub fn visibility(&self, l: impl Into<Vector<R>>, v: impl Into<Vector<R>>) -> R {
+        let (l, v) = (l.into(), v.into());
+        if l[2] < lit(0.0) || v[2] < lit(0.0) {
+            return zero_unless_nan([l[2], v[2]]);
+        }
+        lit::<R>(0.5) / (l[2] * self.projected(v) + v[2] * self.projected(l))
+    }
+
+    /// The BRDF with F = 1: D V, in 1/sr.
+    #[inline(always)]
+    pub fn eval(&self, l: impl Into<Vector<R>>, v: impl Into<Vector<R>>) -> R {
+        let (l, v) = (l.into(), v.into());
+        self.d_between(l, v) * self.visibility(l, v)
+    }
+
+    /// Density with which [`Ggx::sample`] draws `l` for a view `v`, in 1/sr, for `l` above the
+    /// horizon. Below it only [`Sampler::BoundedCap`] may never draw what has a density here.
+    #[inline(always)]
+    pub fn pdf(&self, l: impl Into<Vector<R>>, v: impl Into<Vector<R>>, sampler: Sampler) -> R {
+        let (l, v) = (l.into(), v.into());
+        if sampler == Sampler::Cosine {
+            return l[2].at_least(lit(0.0)) * lit(FRAC_1_PI);
+        }
+        self.d_between(l, v) * self.visible_share(v, sampler)
+    }
+
+    /// Density over D: 1/(2 (N·V + sqrt(…))), the normalisation of the visible normals over
+    /// the 4 V·H of the mirror.
+    #[inline(always)]
+    fn visible_share(&self, v: Vector<R>, sampler: Sampler) -> R {
+        let length = self.projected(v);
+        let z = v[2];
+        if z < lit(0.0) {
+            // z + length without the difference.
+            let (x, y) = self.stretched(v);
+            return lit::<R>(0.5) * (length - z) / (x * x + y * y);
+        }
+        let k = if sampler == Sampler::BoundedCap {
+            self.cap_bound(v)
+        } else {
+            lit(1.0)
+        };
+        lit::<R>(0.5) / (k * z + length)
+    }
+
+    /// How far down the cap of a view has to reach: Eto and Tokuyoshi's k.
+    #[inline(always)]
+    fn cap_bound(&self, v: Vector<R>) -> R {
+        let one = lit::<R>(1.0);
+        let a = self.alpha_x.at_most(self.alpha_y).clamp_unit();
+        let s = one + (v[0] * v[0] + v[1] * v[1]).sqrt();
+        let (a2, s2) = (a * a, s * s);
+        (one - a) * (one + a) * s2 / (s2 + a2 * (v[2] * v[2]))
+    }
+
+    /// Draws a light for a view from two numbers in [0, 1).
+    ///
+    /// The weight is G₂/G₁ for visible normals, and BRDF · N·L / density for the others.
+    pub fn sample(&self, v: impl Into<Vector<R>>, u: [R; 2], sampler: Sampler) -> Sample<R> {
+        let v = v.into();
+        let l = match sampler {
+            Sampler::Cosine => cosine_direction(u),
+            Sampler::Hemisphere => reflect(v, self.visible_normal(v, u)),
+            Sampler::SphericalCap => self.cap_direction(v, u, lit(1.0)),
+            Sampler::BoundedCap if v[2] > lit(0.0) => self.cap_direction(v, u, self.cap_bound(v)),
+            Sampler::BoundedCap => self.cap_direction(v, u, lit(1.0)),
+        };
+        let d = self.d_between(l, v);
+        let pdf = match sampler {
+            Sampler::Cosine => l[2].at_least(lit(0.0)) * lit(FRAC_1_PI),
+            _ => d * self.visible_share(v, sampler),
+        };
+        let weight = if l[2] <= lit(0.0) || v[2] <= lit(0.0) {
+            zero_unless_nan([l[2], v[2]])
+        } else if sampler == Sampler::Cosine {
+            d * self.visibility(l, v) * lit(PI)
+        } else {
+            self.visibility(l, v) * l[2] / self.visible_share(v, sampler)
+        };
+        Sample { l, weight, pdf }
+    }
+
+    /// A normal that is visible from `v` (Heitz 2018).
+    fn visible_normal(&self, v: Vector<R>, u: [R; 2]) -> Vector<R> {
+        let (zero, one) = (lit::<R>(0.0), lit::<R>(1.0));
+        let (x, y) = self.stretched(v);
+        let view = normalize([x, y, v[2]]);
+        let across = view[0] * view[0] + view[1] * view[1];
+        let t1 = if across > zero {
+            let scale = one / across.sqrt();
+            [-view[1] * scale, view[0] * scale, zero]
+        } else {
+            [one, zero, zero]
+        };
+        let t2 = [
+            view[1] * t1[2] - view[2] * t1[1],
+            view[2] * t1[0] - view[0] * t1[2],
+            view[0] * t1[1] - view[1] * t1[0],
+        ];
+        let (radius, phi) = (u[0].sqrt(), u[1] * lit(2.0 * PI));
+        let (a, b) = (radius * phi.cos(), radius * phi.sin());
+        let s = lit::<R>(0.5) * (one + view[2]);
+        let b = (one - s) * (one - a * a).at_least(zero).sqrt() + s * b;
+        let c = (one - a * a - b * b).at_least(zero).sqrt();
+        let n = |i: usize| a * t1[i] + b * t2[i] + c * view[i];
+        normalize([
+            self.alpha_x * n(0),
+            self.alpha_y * n(1),
+            n(2).at_least(zero),
+        ])
+    }
+
+    /// A light from the cap z > −`bound` z_v of the stretched sphere around a view.
+    #[inline(always)]
+    fn cap_direction(&self, v: Vector<R>, u: [R; 2], bound: R) -> Vector<R> {
+        let one = lit::<R>(1.0);
+        let (x, y) = self.stretched(v);
+        let view = normalize([x, y, v[2]]);
+        let low = bound * view[2];
+        let z = (one - u[1]) * (one + low) - low;
+        let sin = ((one - z) * (one + z)).at_least(lit(0.0)).sqrt();
+        let phi = u[0] * lit(2.0 * PI);
+        let m = add(view, [sin * phi.cos(), sin * phi.sin(), z]);
+        reflect(
+            v,
+            normalize([self.alpha_x * m[0], self.alpha_y * m[1], m[2]]),
+        )
+    }
+}
+
+/// A direction with density cos θ/π.
+fn cosine_direction<R: Real>(u: [R; 2]) -> Vector<R> {
+    let (radius, phi) = (u[0].sqrt(), u[1] * lit(2.0 * PI));
+    [
+        radius * phi.cos(),
+        radius * phi.sin(),
+        (lit::<R>(1.0) - u[0]).at_least(lit(0.0)).sqrt(),
+    ]
+}
+
+/// V·H = |l + v|/2 and 1 − V·H = |l − v|²/(4 (1 + V·H)), for directions of length 1.
+///
+/// Schlick takes the fifth power of the second, so that each of its ulps counts five times:
+/// sums and differences keep their rounding errors, and far from l = v the plain difference
+/// is the better one.
+#[inline(always)]
+pub fn v_dot_h_and_rest<R: Real>(l: impl Into<Vector<R>>, v: impl Into<Vector<R>>) -> (R, R) {
+    let (l, v) = (l.into(), v.into());
+    let one = lit::<R>(1.0);
+    let length2 = |sign: R| {
+        let sum = [0, 1, 2].map(|i| l[i].two_sum(sign * v[i]));
+        let [x, y, z] = sum.map(|(high, low)| high * high + lit::<R>(2.0) * high * low);
+        x + y + z
+    };
+    let c = lit::<R>(0.5) * length2(one).sqrt();
+    let rest = if c < lit(0.5) {
+        one - c
+    } else {
+        lit::<R>(0.25) * length2(-one) / (one + c)
+    };
+    (c, rest)
+}
+
+/// The mirror that the facets are made of, in three colours.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Fresnel<R> {
+    /// Everything is reflected.
+    Perfect,
+    /// Schlick's approximation with the reflectance at normal incidence.
+    Schlick {
+        /// Reflectance at normal incidence, red, green and blue.
+        f0: [R; 3],
+    },
+    /// A dielectric, see [`f_dielectric`].
+    Dielectric {
+        /// Index of refraction, transmitted over incident.
+        eta: R,
+    },
+    /// A conductor, see [`crate::f_conductor`].
+    Conductor {
+        /// Real part of the index of refraction, red, green and blue.
+        n: [R; 3],
+        /// Imaginary part.
+        k: [R; 3],
+    },
+}
+
+impl<R: Real> Fresnel<R> {
+    /// Reflectance of the facet that mirrors `l` into `v`, directions of length 1.
+    #[inline(always)]
+    pub fn eval(&self, l: impl Into<Vector<R>>, v: impl Into<Vector<R>>) -> [R; 3] {
+        let (c, rest) = v_dot_h_and_rest(l.into(), v.into());
+        match *self {
+            Fresnel::Perfect => [lit(1.0); 3],
+            Fresnel::Schlick { f0 } => {
+                let power = rest.pow5();
+                f0.map(|f0| f0 + (lit::<R>(1.0) - f0) * power)
+            }
+            Fresnel::Dielectric { eta } => [f_dielectric(eta, c); 3],
+            Fresnel::Conductor { n, k } => conductor_rgb(n, k, c),
+        }
+    }
+}
+
+/// A whole specular lobe: GGX with mirrors of some material.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Specular<R> {
+    /// How the facets lie.
+    pub ggx: Ggx<R>,
+    /// What they are made of.
+    pub fresnel: Fresnel<R>,
+}
+
+impl<R: Real> Specular<R> {
+    /// BRDF times N·L, D V F cos θ, in 1/sr, for directions of length 1; 0 below the horizon.
+    #[inline(always)]
+    pub fn eval_cos(&self, l: impl Into<Vector<R>>, v: impl Into<Vector<R>>) -> [R; 3] {
+        let (l, v) = (l.into(), v.into());
+        let value = self.ggx.eval(l, v) * l[2].at_least(lit(0.0));
+        self.fresnel.eval(l, v).map(|f| f * value)
+    }
+
+    /// Draws a light for a view: the direction, its density and BRDF · N·L / density.
+    pub fn sample(
+        &self,
+        v: impl Into<Vector<R>>,
+        u: [R; 2],
+        sampler: Sampler,
+    ) -> (Sample<R>, [R; 3]) {
+        let v = v.into();
+        let sample = self.ggx.sample(v, u, sampler);
+        (
+            sample,
+            self.fresnel.eval(sample.l, v).map(|f| f * sample.weight),
+        )
+    }
+}
+
+/// The formulas from vectors as data, so that their errors can be measured like those of the
+/// terms. Lessons do not call them, and they have no WGSL twin.
+pub fn vector_terms() -> &'static [Term] {
+    VECTOR_TERMS
+}
+
+const VECTOR_TERMS: &[Term] = &[
+    VECTOR_D_GGX,
+    VECTOR_V_GGX,
+    VECTOR_LAMBDA_GGX,
+    VECTOR_F_SCHLICK,
+    VECTOR_SPECULAR,
+    VECTOR_PDF,
+];
+
+const fn component(name: &'static str, meaning: &'static str) -> Param {
+    let range = if matches!(name.as_bytes()[2], b'z') {
+        (1e-6, 1.0)
+    } else {
+        (-1.0, 1.0)
+    };
+    Param {
+        name,
+        range,
+        unit: "1",
+        meaning,
+    }
+}
+
+const L_X: Param = component("l_x", "light along the tangent");
+const L_Y: Param = component("l_y", "light along the bitangent");
+const L_Z: Param = component("l_z", "light along the normal");
+const V_X: Param = component("v_x", "view along the tangent");
+const V_Y: Param = component("v_y", "view along the bitangent");
+const V_Z: Param = component("v_z", "view along the normal");
+
+/// D of GGX from a light and a view, see [`Ggx::d_between`].
+fn vector_d_ggx<R: Real>(l_x: R, l_y: R, l_z: R, v_x: R, v_y: R, v_z: R, alpha: R) -> R {
+    Ggx::new(alpha).d_between([l_x, l_y, l_z], [v_x, v_y, v_z])
+}
+
+const VECTOR_D_GGX: Term = entry!(
+    vector_d_ggx(l_x: L_X, l_y: L_Y, l_z: L_Z, v_x: V_X, v_y: V_Y, v_z: V_Z, alpha: ALPHA),
+    symbol: "D", latex: "D", cost: 15,
+    doc: "D of GGX from light and view in the tangent frame",
+    source: "Walter et al. 2007, eq. 33",
+    wgsl: None
+);
+
+/// Visibility of GGX from a light and a view, see [`Ggx::visibility`].
+fn vector_v_ggx<R: Real>(l_x: R, l_y: R, l_z: R, v_x: R, v_y: R, v_z: R, alpha: R) -> R {
+    Ggx::new(alpha).visibility([l_x, l_y, l_z], [v_x, v_y, v_z])
+}
+
+const VECTOR_V_GGX: Term = entry!(
+    vector_v_ggx(l_x: L_X, l_y: L_Y, l_z: L_Z, v_x: V_X, v_y: V_Y, v_z: V_Z, alpha: ALPHA),
+    symbol: "V", latex: "V", cost: 20,
+    doc: "visibility of GGX from light and view in the tangent frame",
+    source: "Heitz 2014, eq. 99",
+    wgsl: None
+);
+
+/// Λ of GGX from a direction, see [`Ggx::lambda`].
+fn vector_lambda_ggx<R: Real>(v_x: R, v_y: R, v_z: R, alpha: R) -> R {
+    Ggx::new(alpha).lambda([v_x, v_y, v_z])
+}
+
+const VECTOR_LAMBDA_GGX: Term = entry!(
+    vector_lambda_ggx(v_x: V_X, v_y: V_Y, v_z: V_Z, alpha: ALPHA),
+    symbol: "Λ", latex: r"\Lambda", cost: 15,
+    doc: "Lambda of GGX from a direction in the tangent frame",
+    source: "Heitz 2014, eq. 72",
+    wgsl: None
+);
+
+/// Schlick's reflectance from a light and a view, see [`Fresnel::eval`].
+fn vector_f_schlick<R: Real>(l_x: R, l_y: R, l_z: R, v_x: R, v_y: R, v_z: R, f0: R) -> R {
+    Fresnel::Schlick { f0: [f0; 3] }.eval([l_x, l_y, l_z], [v_x, v_y, v_z])[0]
+}
+
+const VECTOR_F_SCHLICK: Term = entry!(
+    vector_f_schlick(l_x: L_X, l_y: L_Y, l_z: L_Z, v_x: V_X, v_y: V_Y, v_z: V_Z, f0: F0),
+    symbol: "F", latex: "F", cost: 25,
+    doc: "Schlick's reflectance from light and view",
+    source: "Schlick 1994, eq. 15",
+    wgsl: None
+);
+
+/// D V F cos θ from a light and a view, see [`Specular::eval_cos`].
+#[allow(clippy::too_many_arguments)]
+fn vector_specular<R: Real>(l_x: R, l_y: R, l_z: R, v_x: R, v_y: R, v_z: R, alpha: R, f0: R) -> R {
+    let fresnel = Fresnel::Schlick { f0: [f0; 3] };
+    Specular {
+        ggx: Ggx::new(alpha),
+        fresnel,
+    }
+    .eval_cos([l_x, l_y, l_z], [v_x, v_y, v_z])[0]
+}
+
+const VECTOR_SPECULAR: Term = entry!(
+    vector_specular(l_x: L_X, l_y: L_Y, l_z: L_Z, v_x: V_X, v_y: V_Y, v_z: V_Z, alpha: ALPHA, f0: F0),
+    symbol: "D V F cos θ", latex: r"D V F \cos\theta", cost: 60,
+    doc: "specular BRDF times cosine from light and view in the tangent frame",
+    source: "Walter et al. 2007, eq. 20; Heitz 2014, eq. 99",
+    wgsl: None
+);
+
+/// Density of the visible normals' reflection, see [`Ggx::pdf`].
+fn vector_pdf<R: Real>(l_x: R, l_y: R, l_z: R, v_x: R, v_y: R, v_z: R, alpha: R) -> R {
+    Ggx::new(alpha).pdf([l_x, l_y, l_z], [v_x, v_y, v_z], Sampler::SphericalCap)
+}
+
+const VECTOR_PDF: Term = entry!(
+    vector_pdf(l_x: L_X, l_y: L_Y, l_z: L_Z, v_x: V_X, v_y: V_Y, v_z: V_Z, alpha: ALPHA),
+    symbol: "p", latex: "p", cost: 25,
+    doc: "density of lights drawn by the visible normals",
+    source: "Heitz 2018; Dupuy and Benyoub 2023",
+    wgsl: None
+);

@@ -1,0 +1,45 @@
+//! Three components in the tangent frame, z along the normal.
+
+use crate::real::{Real, lit};
+
+/// A vector in the tangent frame: along the tangent, the bitangent and the normal.
+///
+/// `glam::Vec3` turns into it by itself wherever `impl Into<Vector<R>>` is asked for.
+pub type Vector<R> = [R; 3];
+
+#[inline(always)]
+pub(crate) fn dot<R: Real>(a: Vector<R>, b: Vector<R>) -> R {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+#[inline(always)]
+pub(crate) fn add<R: Real>(a: Vector<R>, b: Vector<R>) -> Vector<R> {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+
+#[inline(always)]
+pub(crate) fn sub<R: Real>(a: Vector<R>, b: Vector<R>) -> Vector<R> {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+#[inline(always)]
+pub(crate) fn scale<R: Real>(a: Vector<R>, s: R) -> Vector<R> {
+    [a[0] * s, a[1] * s, a[2] * s]
+}
+
+/// Of length 1; up, if it has no length.
+#[inline(always)]
+pub(crate) fn normalize<R: Real>(a: Vector<R>) -> Vector<R> {
+    let length2 = dot(a, a);
+    if length2 > lit(0.0) {
+        scale(a, lit::<R>(1.0) / length2.sqrt())
+    } else {
+        [lit(0.0), lit(0.0), lit(1.0)]
+    }
+}
+
+/// `v` mirrored in a facet with normal `m` of length 1.
+#[inline(always)]
+pub(crate) fn reflect<R: Real>(v: Vector<R>, m: Vector<R>) -> Vector<R> {
+    sub(scale(m, lit::<R>(2.0) * dot(v, m)), v)
+}

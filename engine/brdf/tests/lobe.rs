@@ -1,0 +1,259 @@
+//! The lobe from vectors: agreement with the terms, samplers against their densities.
+
+use brdf::*;
+use std::f64::consts::PI;
+
+const SAMPLERS: [Sampler; 4] = [
+    Sampler::Hemisphere,
+    Sampler::SphericalCap,
+    Sampler::BoundedCap,
+    Sampler::Cosine,
+];
+
+/// Numbers that follow from a seed (SplitMix64).
+struct Numbers(u64);
+
+impl Numbers {
+    fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn pair(&mut self) -> [f64; 2] {
+        [self.unit(), self.unit()]
+    }
+}
+
+fn direction(cos: f64, phi: f64) -> [f64; 3] {
+    let sin = ((1.0 - cos) * (1.0 + cos)).sqrt();
+    [sin * phi.cos(), sin * phi.sin(), cos]
+}
+
+#[track_caller]
+fn close(a: f64, b: f64, relative: f64) {
+    assert!(
+        (a - b).abs() <= relative * (a.abs() + b.abs()),
+        "{a} is not {b}"
+    );
+}
+
+#[test]
+fn vectors_and_cosines_agree() {
+    let mut numbers = Numbers(1);
+    for _ in 0..2000 {
+        let (l, v) = (
+            direction(numbers.unit(), 6.3 * numbers.unit()),
+            direction(numbers.unit(), 1.0),
+        );
+        let alpha = 0.05 + 0.95 * numbers.unit();
+        let h = [l[0] + v[0], l[1] + v[1], l[2] + v[2]];
+        let length = (h[0] * h[0] + h[1] * h[1] + h[2] * h[2]).sqrt();
+        let ggx = Ggx::new(alpha);
+        close(ggx.d(h), d_ggx(h[2] / length, alpha), 1e-11);
+        close(
+            ggx.d(h),
+            d_ggx_aniso(h[0] / length, h[1] / length, h[2] / length, alpha, alpha),
+            1e-12,
+        );
+        close(ggx.visibility(l, v), v_ggx(l[2], v[2], alpha), 1e-12);
+        close(ggx.lambda(v), lambda_ggx(v[2], alpha), 1e-10);
+        close(ggx.g1(v), g1_ggx(v[2], alpha), 1e-12);
+        close(
+            ggx.eval(l, v),
+            specular_ggx(l[2], v[2], h[2] / length, alpha.sqrt()),
+            1e-11,
+        );
+        close(ggx.eval(l, v), ggx.eval(v, l), 1e-13);
+        close(d_ggx_world([0.0, 0.0, 1.0], l, v, alpha), ggx.d(h), 1e-12);
+        let (c, rest) = v_dot_h_and_rest(l, v);
+        close(c, length / 2.0, 1e-14);
+        close(c + rest, 1.0, 1e-14);
+        let single = |x: [f64; 3]| glam::Vec3::from_array(x.map(|x| x as f32));
+        let (value, truth) = (
+            Ggx::new(alpha as f32).eval(single(l), single(v)),
+            ggx.eval(l, v),
+        );
+        close(f64::from(value), truth, 1e-3);
+    }
+}
+
+/// χ² of drawn directions against the integral of the density, over bins of (z, φ).
+fn chi_square(ggx: Ggx<f64>, v: [f64; 3], sampler: Sampler) -> (f64, f64) {
+    const ROWS: usize = 16;
+    const COLUMNS: usize = 16;
+    const DRAWN: usize = 60_000;
+    let bin = |l: [f64; 3]| {
+        let row = ((l[2] + 1.0) * 0.5 * ROWS as f64) as usize;
+        let turn = l[1].atan2(l[0]) / (2.0 * PI) + 0.5;
+        row.min(ROWS - 1) * COLUMNS + ((turn * COLUMNS as f64) as usize).min(COLUMNS - 1)
+    };
+    let mut expected = vec![0.0; ROWS * COLUMNS];
+    let fine = 24;
+    for i in 0..ROWS * fine {
+        for j in 0..COLUMNS * fine {
+            let z = (i as f64 + 0.5) / (ROWS * fine) as f64 * 2.0 - 1.0;
+            let phi = ((j as f64 + 0.5) / (COLUMNS * fine) as f64 - 0.5) * 2.0 * PI;
+            let area = 4.0 * PI / (ROWS * COLUMNS * fine * fine) as f64;
+            let l = direction(z, phi);
+            expected[i / fine * COLUMNS + j / fine] += ggx.pdf(l, v, sampler) * area * DRAWN as f64;
+        }
+    }
+    let mut seen = vec![0.0; ROWS * COLUMNS];
+    let mut numbers = Numbers(7);
+    for _ in 0..DRAWN {
+        let sample = ggx.sample(v, numbers.pair(), sampler);
+        close(sample.pdf, ggx.pdf(sample.l, v, sampler), 1e-9);
+        seen[bin(sample.l)] += 1.0;
+    }
+    // Bins with little expected are counted together.
+    let (mut sum, mut freedom, mut rest) = (0.0, 0.0, (0.0, 0.0));
+    // What a bounded cap leaves out of the directions below the horizon has a density all the
+    // same: it is the one the directions above need.
+    let first = if sampler == Sampler::BoundedCap {
+        ROWS / 2 * COLUMNS
+    } else {
+        0
+    };
+    for (expected, seen) in expected.into_iter().zip(seen).skip(first) {
+        if expected < 10.0 {
+            rest = (rest.0 + expected, rest.1 + seen);
+        } else {
+            sum += (seen - expected) * (seen - expected) / expected;
+            freedom += 1.0;
+        }
+    }
+    if rest.0 > 10.0 {
+        sum += (rest.1 - rest.0) * (rest.1 - rest.0) / rest.0;
+        freedom += 1.0;
+    }
+    (sum, freedom)
+}
+
+#[test]
+fn samplers_draw_their_density() {
+    let surfaces = [
+        Ggx::new(0.35),
+        Ggx::new(1.0),
+        Ggx {
+            alpha_x: 0.3,
+            alpha_y: 0.8,
+        },
+    ];
+    for ggx in surfaces {
+        for cos in [1.0, 0.7, 0.15] {
+            for sampler in SAMPLERS {
+                let v = direction(cos, 0.4);
+                let (sum, freedom) = chi_square(ggx, v, sampler);
+                // Five standard deviations, and what the midpoint rule misses.
+                let bound = freedom + 5.0 * (2.0 * freedom).sqrt() + 0.1 * freedom;
+                assert!(sum < bound, "{ggx:?} {cos} {sampler:?}: {sum} of {freedom}");
+            }
+        }
+    }
+}
+
+#[test]
+fn samplers_find_the_albedo() {
+    for alpha in [0.1, 0.5, 1.0] {
+        for cos in [0.9, 0.3] {
+            for sampler in [
+                Sampler::Hemisphere,
+                Sampler::SphericalCap,
+                Sampler::BoundedCap,
+            ] {
+                let (ggx, v) = (Ggx::new(alpha), direction(cos, 1.0));
+                let (mut numbers, count) = (Numbers(3), 40_000);
+                let sum: f64 = (0..count)
+                    .map(|_| ggx.sample(v, numbers.pair(), sampler).weight)
+                    .sum();
+                let (mean, truth) = (sum / count as f64, albedo_ggx(cos, alpha));
+                assert!(
+                    (mean - truth).abs() < 0.006,
+                    "{alpha} {cos} {sampler:?}: {mean}, not {truth}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn colours_of_a_mirror() {
+    let (l, v) = (direction(0.8, 0.0), direction(0.6, 2.0));
+    let (c, _) = v_dot_h_and_rest(l, v);
+    let gold = ([0.143, 0.375, 1.442], [3.983, 2.386, 1.603]);
+    let rgb = Fresnel::Conductor {
+        n: gold.0,
+        k: gold.1,
+    }
+    .eval(l, v);
+    for ((value, n), k) in rgb.into_iter().zip(gold.0).zip(gold.1) {
+        close(value, f_conductor(n, k, c), 1e-15);
+    }
+    close(
+        Fresnel::Schlick { f0: [0.04; 3] }.eval(l, v)[0],
+        f_schlick(0.04, c),
+        1e-13,
+    );
+    close(
+        Fresnel::Dielectric { eta: 1.5 }.eval(l, v)[1],
+        f_dielectric(1.5, c),
+        1e-15,
+    );
+    let lobe = Specular {
+        ggx: Ggx::new(0.2),
+        fresnel: Fresnel::Perfect,
+    };
+    close(lobe.eval_cos(l, v)[2], lobe.ggx.eval(l, v) * l[2], 1e-15);
+    assert_eq!(f0_from_metallic([0.9, 0.5, 0.1], 0.0), [0.04; 3]);
+    assert_eq!(f0_from_metallic([0.9, 0.5, 0.1], 1.0), [0.9, 0.5, 0.1]);
+}
+
+#[test]
+fn compensation_keeps_all_light() {
+    // 2 ∫ (1 − μ ln(1 + 1/μ)) μ dμ = (4 − 4 ln 2)/3 at α = 1.
+    close(albedo_average_ggx(1.0), (4.0 - 4.0 * 2f64.ln()) / 3.0, 1e-9);
+    for alpha in [0.1, 0.4, 1.0] {
+        let average = albedo_average_ggx(alpha);
+        let view = albedo_ggx(0.3, alpha);
+        // ∫ f_ms μ dω over the lights.
+        let steps = 64;
+        let mut added = 0.0;
+        for i in 0..steps {
+            let y = (i as f64 + 0.5) / steps as f64;
+            let mu = y * y;
+            let f = f_multi_kulla_conty(albedo_ggx(mu, alpha), view, average);
+            added += f * mu * 2.0 * PI * 2.0 * y / steps as f64;
+        }
+        close(view + added, 1.0, 1e-3);
+        close(view * compensation_turquin(1.0, view), 1.0, 1e-15);
+    }
+    let table = AlbedoTable::new(16);
+    assert!((table.get(0.5, 0.5) - albedo_ggx(0.5f32, 0.25)).abs() < 2e-3);
+}
+
+#[test]
+fn rusinkiewicz_and_back() {
+    let mut numbers = Numbers(5);
+    for _ in 0..500 {
+        let (l, v) = (
+            direction(numbers.unit(), 6.3 * numbers.unit()),
+            direction(numbers.unit(), 6.3 * numbers.unit()),
+        );
+        let there = Rusinkiewicz::<f64>::new(l, v);
+        let (l1, v1) = there.directions();
+        close(l1[2], l[2], 1e-9);
+        close(v1[2], v[2], 1e-9);
+        let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        assert!((dot(l1, v1) - dot(l, v)).abs() < 1e-12);
+        assert!((there.theta_d.cos() - v_dot_h_from(l[2], v[2], dot(l, v))).abs() < 1e-12);
+        assert!((there.theta_h.cos() - n_dot_h_from(l[2], v[2], dot(l, v))).abs() < 1e-9);
+        // cos φ_d = (N·V − N·L)/sqrt((2 − 2 L·V)(1 − (N·H)²)) (Hammon 2017).
+        let sines = ((2.0 - 2.0 * dot(l, v)) * there.theta_h.sin().powi(2)).sqrt();
+        assert!((there.phi_d.cos() - (v[2] - l[2]) / sines).abs() < 1e-6 / sines);
+    }
+    close(alpha_filtered(0.3, 0.02), (0.09f64 + 0.04).sqrt(), 1e-15);
+    close(alpha_filtered(0.3, 5.0), (0.09f64 + 0.18).sqrt(), 1e-15);
+}
