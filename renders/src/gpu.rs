@@ -54,6 +54,25 @@ fn adapter(wanted: Wanted) -> Result<(wgpu::Adapter, wgpu::AdapterInfo), Error> 
     Ok((adapter, info))
 }
 
+/// Whether a real graphics processor can be there at all: loading every installed driver to find
+/// none takes longer than drawing on the CPU.
+pub(crate) fn may_be_there() -> bool {
+    if cfg!(target_os = "linux") {
+        let devices = [
+            "/dev/dri",
+            "/dev/nvidiactl",
+            "/dev/dxg",
+            "/dev/mali0",
+            "/dev/kgsl-3d0",
+        ];
+        devices
+            .iter()
+            .any(|device| std::path::Path::new(device).exists())
+    } else {
+        true
+    }
+}
+
 fn describe(info: &wgpu::AdapterInfo) -> String {
     format!("{} ({})", info.name, info.backend)
 }

@@ -184,7 +184,16 @@ pub fn render(
     let cpu = Cpu::new(fingerprint, &plan)?;
     let profile = Profile::of(fingerprint, &cpu);
     let exposure = profile.exposure();
-    let drawn = draw_panels(fingerprint, options, &plan, exposure, cancel)?;
+    let drawn = draw_panels(
+        fingerprint,
+        options,
+        &plan,
+        Shown {
+            exposure,
+            raw: false,
+        },
+        cancel,
+    )?;
     let visibility = visibility::measure(fingerprint, &cpu, &drawn.shaded);
     let canvas = if options.compact || options.size < LEAST_WITH_TEXT {
         picture::compact(&drawn.panel, &drawn.shaded)
@@ -224,7 +233,16 @@ pub fn render(
 /// As [`render`].
 pub fn raw(fingerprint: &Fingerprint<'_>, options: &Options) -> Result<Raw, Error> {
     let plan = Plan::of(fingerprint, options.skip);
-    let drawn = draw_panels(fingerprint, options, &plan, 1.0, &AtomicBool::new(false))?;
+    let drawn = draw_panels(
+        fingerprint,
+        options,
+        &plan,
+        Shown {
+            exposure: 1.0,
+            raw: true,
+        },
+        &AtomicBool::new(false),
+    )?;
     Ok(Raw {
         size: options.size,
         right: drawn.shaded.right,
@@ -244,23 +262,12 @@ fn draw_panels(
     fingerprint: &Fingerprint<'_>,
     options: &Options,
     plan: &Plan,
-    exposure: f64,
+    shown: Shown,
     cancel: &AtomicBool,
 ) -> Result<Drawn, Error> {
     if !(MIN_SIZE..=MAX_SIZE).contains(&options.size) {
         return Err(Error::Size(options.size));
     }
-    let cpu = || Cpu::new(fingerprint, plan).map(|cpu| Engine::Cpu(Box::new(cpu)));
-
-    let gpu = |wanted| Gpu::new(wanted, fingerprint, plan).map(|gpu| Engine::Gpu(Box::new(gpu)));
-    let engine = match options.backend {
-        Backend::Cpu => cpu()?,
-        Backend::Gpu => gpu(Wanted::Any)?,
-        Backend::Auto => match gpu(Wanted::Hardware) {
-            Ok(gpu) => gpu,
-            Err(_) => cpu()?,
-        },
-    };
     let panel = Panel {
         size: options.size as usize,
         geometry: fingerprint.scene.geometry(),
@@ -270,18 +277,46 @@ fn draw_panels(
     let job = Job {
         panel,
         mirror: plan.mirror,
-        exposure,
+        exposure: shown.exposure,
+        raw: shown.raw,
         cancel,
     };
-    let shaded = shade(&job, &engine)?;
-    let (backend, adapter) = match &engine {
-        Engine::Cpu(_) => ("cpu", None),
-        Engine::Gpu(gpu) => ("gpu", Some(gpu.adapter.clone())),
+    let on_cpu = || -> Result<Drawn, Error> {
+        let engine = Engine::Cpu(Box::new(Cpu::new(fingerprint, plan)?));
+        let shaded = shade(&job, &engine)?;
+        Ok(Drawn {
+            panel,
+            shaded,
+            backend: "cpu",
+            adapter: None,
+        })
     };
-    Ok(Drawn {
-        panel,
-        shaded,
-        backend,
-        adapter,
-    })
+    let on_gpu = |wanted| -> Result<Drawn, Error> {
+        let gpu = Gpu::new(wanted, fingerprint, plan)?;
+        let adapter = Some(gpu.adapter.clone());
+        let shaded = shade(&job, &Engine::Gpu(Box::new(gpu)))?;
+        Ok(Drawn {
+            panel,
+            shaded,
+            backend: "gpu",
+            adapter,
+        })
+    };
+    match options.backend {
+        Backend::Cpu => on_cpu(),
+        Backend::Gpu => on_gpu(Wanted::Any),
+        Backend::Auto if !gpu::may_be_there() => on_cpu(),
+        Backend::Auto => match on_gpu(Wanted::Hardware) {
+            // Whatever ails the graphics processor, the CPU draws the same picture.
+            Err(Error::NoAdapter(_) | Error::Gpu(_)) => on_cpu(),
+            drawn => drawn,
+        },
+    }
+}
+
+/// What is wanted of the panels.
+#[derive(Clone, Copy)]
+struct Shown {
+    exposure: f64,
+    raw: bool,
 }

@@ -311,8 +311,8 @@ fn figures(canvas: &mut Canvas, left: f32, top: f32, width: f32, em: f32, visibi
             "lit area that turns brighter",
             percent(visibility.lit_above_one),
         ),
-        ("rim / highlight, correct", short(rim_right)),
-        ("rim / highlight, buggy", short(rim_wrong)),
+        ("rim (median) / highlight, correct", short(rim_right)),
+        ("rim (median) / highlight, buggy", short(rim_wrong)),
         (
             "terminator step / highlight",
             short(visibility.terminator_step),
@@ -356,8 +356,11 @@ fn draw_profile(
     let geometry = fingerprint.scene.geometry();
     let (terminator, rim) = geometry.lit_equator();
     let spec = PlotSpec {
-        x_label: "position across the sphere, along the equator (the light is on the right)"
-            .to_owned(),
+        x_label: match fingerprint.scene.light_deg {
+            0.0 => "position across the sphere, along the equator".to_owned(),
+            _ => "position across the sphere, along the equator (the light is on the right)"
+                .to_owned(),
+        },
         y_label: "radiance (1 = white)".to_owned(),
         y_log: true,
         series: vec![

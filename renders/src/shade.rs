@@ -74,6 +74,7 @@ impl Engine {
 /// Both panels, rows from the top.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Shaded {
+    /// Linear values, each pixel the mean over its area; empty unless asked for.
     pub right: Vec<f64>,
     pub wrong: Vec<f64>,
     /// What is seen of each pixel: every sample exposed and cut at white before it is averaged.
@@ -91,10 +92,11 @@ pub(crate) struct Shaded {
 }
 
 impl Shaded {
-    fn empty(pixels: usize) -> Self {
+    fn empty(pixels: usize, raw: bool) -> Self {
+        let values = if raw { pixels } else { 0 };
         Self {
-            right: vec![0.0; pixels],
-            wrong: vec![0.0; pixels],
+            right: vec![0.0; values],
+            wrong: vec![0.0; values],
             right_seen: vec![0.0; pixels],
             wrong_seen: vec![0.0; pixels],
             lit: vec![0.0; pixels],
@@ -113,8 +115,12 @@ impl Shaded {
             }
             let pixel = pixel as usize - first;
             let (right, wrong) = (values.right[index], values.wrong[index]);
-            self.right[pixel] += f64::from(share) * right;
-            self.wrong[pixel] += f64::from(share) * wrong;
+            if let (Some(right_sum), Some(wrong_sum)) =
+                (self.right.get_mut(pixel), self.wrong.get_mut(pixel))
+            {
+                *right_sum += f64::from(share) * right;
+                *wrong_sum += f64::from(share) * wrong;
+            }
             self.right_seen[pixel] += share * seen(right);
             self.wrong_seen[pixel] += share * seen(wrong);
             self.lit[pixel] += share;
@@ -144,8 +150,10 @@ impl Shaded {
 
     /// Adds a copy of these pixels at the end, which were evaluated already.
     fn append_copy(&mut self, pixels: std::ops::Range<usize>) {
-        self.right.extend_from_within(pixels.clone());
-        self.wrong.extend_from_within(pixels.clone());
+        if !self.right.is_empty() {
+            self.right.extend_from_within(pixels.clone());
+            self.wrong.extend_from_within(pixels.clone());
+        }
         self.right_seen.extend_from_within(pixels.clone());
         self.wrong_seen.extend_from_within(pixels.clone());
         self.lit.extend_from_within(pixels.clone());
@@ -170,6 +178,8 @@ pub(crate) struct Job<'a> {
     /// Evaluate the upper half only: the lower is its mirror image.
     pub mirror: bool,
     pub exposure: f64,
+    /// Keep the linear values.
+    pub raw: bool,
     pub cancel: &'a AtomicBool,
 }
 
@@ -183,7 +193,7 @@ pub(crate) fn shade(job: &Job<'_>, engine: &Engine) -> Result<Shaded, Error> {
             return Err(Error::Cancelled);
         }
         let samples = job.panel.samples(first, last);
-        let mut part = Shaded::empty((last - first) * size);
+        let mut part = Shaded::empty((last - first) * size, job.raw);
         part.add(
             &samples,
             &engine.evaluate(&samples)?,

@@ -57,7 +57,7 @@ fn share(part: f64, whole: f64) -> f64 {
 }
 
 fn disc_area(shaded: &Shaded) -> f64 {
-    let size = (shaded.right.len() as f64).sqrt();
+    let size = (shaded.lit.len() as f64).sqrt();
     std::f64::consts::PI * (crate::RADIUS_SHARE * size).powi(2)
 }
 
