@@ -51,6 +51,11 @@ pub struct Program {
     ops: Vec<Op>,
     inputs: Vec<String>,
     root: Id,
+    /// Products that block evaluation does together with the operation that needs them, by
+    /// that operation: a product that nothing else reads need not be stored.
+    fused: Vec<Option<Id>>,
+    /// Whether an operation is done together with another one.
+    absorbed: Vec<bool>,
     /// Where each operation keeps its values in block evaluation.
     register: Vec<usize>,
     registers: usize,
@@ -78,11 +83,14 @@ impl Program {
             // The dag's inputs are the program's, in the same order: they were given.
             ops.push(op.renumbered(|id| place[id]));
         }
-        let (register, registers) = registers(&ops);
+        let (fused, absorbed) = fused(&ops);
+        let (register, registers) = registers(&ops, &fused, &absorbed);
         Program {
             root: place.get(dag.root).copied().unwrap_or(0),
             ops,
             inputs,
+            fused,
+            absorbed,
             register,
             registers,
         }
@@ -210,16 +218,16 @@ impl<R: Real> Run<'_, R> {
         let ops = self.program.ops.iter().enumerate();
         for (id, op) in ops.filter(|(id, _)| self.uniform[*id].is_none()) {
             if id == self.program.root {
-                self.operation(op, registers, out);
+                self.operation(id, op, registers, out);
                 return;
             }
-            if matches!(op, Op::Input(_)) {
+            if matches!(op, Op::Input(_)) || self.program.absorbed[id] {
                 continue;
             }
             // An operation never writes where it reads: registers are allotted so.
             let slot = self.program.register[id];
             let mut to = std::mem::take(&mut registers[slot]);
-            self.operation(op, registers, &mut to[..out.len()]);
+            self.operation(id, op, registers, &mut to[..out.len()]);
             registers[slot] = to;
         }
     }
@@ -238,9 +246,29 @@ impl<R: Real> Run<'_, R> {
     }
 
     /// The kind of operation is looked at once, outside of the loops.
-    fn operation(&self, op: &Op, registers: &[Vec<R>], out: &mut [R]) {
+    fn operation(&self, id: Id, op: &Op, registers: &[Vec<R>], out: &mut [R]) {
         let count = out.len();
         let view = |id: &Id| self.view(*id, registers, count);
+        // A product that is the same at all points is no longer one.
+        if let Some(product) = self.program.fused[id].filter(|id| self.uniform[*id].is_none()) {
+            let (x, y) = match &self.program.ops[product] {
+                Op::Mul(x, y) => (view(x), view(y)),
+                Op::PowInt(x, _) => (view(x), view(x)),
+                _ => return,
+            };
+            match op {
+                Op::Add(a, b) if *a == product => with_product(out, x, y, view(b), R::add),
+                Op::Add(a, _) => with_product(out, x, y, view(a), |p, z| z.add(p)),
+                Op::Sub(a, b) if *a == product => with_product(out, x, y, view(b), R::sub),
+                Op::Sub(a, _) => with_product(out, x, y, view(a), |p, z| z.sub(p)),
+                Op::Mul(a, b) if *a == product => with_product(out, x, y, view(b), R::mul),
+                Op::Mul(a, _) => with_product(out, x, y, view(a), |p, z| z.mul(p)),
+                Op::Div(a, b) if *a == product => with_product(out, x, y, view(b), R::div),
+                Op::Div(a, _) => with_product(out, x, y, view(a), |p, z| z.div(p)),
+                _ => {}
+            }
+            return;
+        }
         match op {
             Op::Number(_) | Op::Pi => {}
             Op::Input(index) => {
@@ -314,6 +342,39 @@ fn two<R: Real>(out: &mut [R], a: View<R>, b: View<R>, f: impl Fn(R, R) -> R) {
     }
 }
 
+/// A product and what is done with it, in one pass; rounded twice, as if it were two.
+#[inline(always)]
+fn with_product<R: Real>(out: &mut [R], x: View<R>, y: View<R>, z: View<R>, f: impl Fn(R, R) -> R) {
+    let (x, y) = match (x, y) {
+        (View::Each(x), y) => (x, y),
+        (x, View::Each(y)) => (y, x),
+        // Not reached: such a product is the same at all points.
+        (View::Same(x), View::Same(y)) => return one(out, z, |z| f(x.mul(y), z)),
+    };
+    match (y, z) {
+        (View::Same(y), View::Same(z)) => {
+            for (out, x) in out.iter_mut().zip(x) {
+                *out = f(x.mul(y), z);
+            }
+        }
+        (View::Same(y), View::Each(z)) => {
+            for ((out, x), z) in out.iter_mut().zip(x).zip(z) {
+                *out = f(x.mul(y), *z);
+            }
+        }
+        (View::Each(y), View::Same(z)) => {
+            for ((out, x), y) in out.iter_mut().zip(x).zip(y) {
+                *out = f(x.mul(*y), z);
+            }
+        }
+        (View::Each(y), View::Each(z)) => {
+            for (((out, x), y), z) in out.iter_mut().zip(x).zip(y).zip(z) {
+                *out = f(x.mul(*y), *z);
+            }
+        }
+    }
+}
+
 impl Op {
     fn renumbered(&self, new: impl Fn(Id) -> Id) -> Op {
         match self {
@@ -334,20 +395,58 @@ impl Op {
     }
 }
 
+/// Finds products that are read once, by a sum, a difference, a product or a quotient.
+fn fused(ops: &[Op]) -> (Vec<Option<Id>>, Vec<bool>) {
+    let mut reads = vec![0_u32; ops.len()];
+    for op in ops {
+        for operand in op.operands() {
+            reads[operand] += 1;
+        }
+    }
+    let mut fused = vec![None; ops.len()];
+    let mut absorbed = vec![false; ops.len()];
+    for (id, op) in ops.iter().enumerate() {
+        let (Op::Add(a, b) | Op::Sub(a, b) | Op::Mul(a, b) | Op::Div(a, b)) = op else {
+            continue;
+        };
+        // One level: a product that itself takes one in is left alone.
+        let product = [*a, *b].into_iter().find(|operand| {
+            let simple = matches!(ops[*operand], Op::Mul(..) | Op::PowInt(_, 2));
+            simple && reads[*operand] == 1 && fused[*operand].is_none()
+        });
+        if let Some(product) = product {
+            fused[id] = Some(product);
+            absorbed[product] = true;
+        }
+    }
+    (fused, absorbed)
+}
+
 /// Allots registers: one is free again after the last operation that reads it, and that
 /// operation itself still writes elsewhere.
-fn registers(ops: &[Op]) -> (Vec<usize>, usize) {
+fn registers(ops: &[Op], fused: &[Option<Id>], absorbed: &[bool]) -> (Vec<usize>, usize) {
+    // What an operation reads, through the product that is done with it.
+    let reads = |id: Id| {
+        let mut operands = ops[id].operands();
+        if let Some(product) = fused[id] {
+            operands.retain(|operand| *operand != product);
+            operands.extend(ops[product].operands());
+        }
+        operands.sort_unstable();
+        operands.dedup();
+        operands
+    };
     let mut last_read = vec![0; ops.len()];
-    for (id, op) in ops.iter().enumerate() {
-        for operand in op.operands() {
+    for id in (0..ops.len()).filter(|id| !absorbed[*id]) {
+        for operand in reads(id) {
             last_read[operand] = id;
         }
     }
     let mut register = vec![0; ops.len()];
     let mut free = Vec::new();
     let mut count = 0;
-    for (id, op) in ops.iter().enumerate() {
-        let mut operands = op.operands();
+    for id in (0..ops.len()).filter(|id| !absorbed[*id]) {
+        let operands = reads(id);
         if operands.is_empty() {
             continue;
         }
@@ -355,8 +454,6 @@ fn registers(ops: &[Op]) -> (Vec<usize>, usize) {
             count += 1;
             count - 1
         });
-        operands.sort_unstable();
-        operands.dedup();
         for operand in operands {
             if last_read[operand] == id && !ops[operand].operands().is_empty() {
                 free.push(register[operand]);

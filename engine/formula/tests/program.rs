@@ -89,6 +89,13 @@ fn blocks_are_points() {
         "acos(n_dot_h) + asin(n_dot_l) * atan(n_dot_v) - ln(f0) / log2(1 + f0)",
         "n_dot_h^7 - n_dot_h^-3 + n_dot_h^n_dot_l + n_dot_h^4",
         "specular_ggx() + specular_ggx(roughness = 0.5)",
+        // Products that are done together with what reads them, on either side.
+        "n_dot_h * n_dot_l + f0 * roughness",
+        "f0 - n_dot_h * n_dot_l - (n_dot_v^2 - roughness^2)",
+        "f0 / (n_dot_h * roughness) + n_dot_h * roughness / f0",
+        "n_dot_h * n_dot_l * n_dot_v * (n_dot_h * n_dot_l)",
+        "(n_dot_h * n_dot_l) * (n_dot_v * f0) * (roughness * roughness + 2 * roughness)",
+        "n_dot_h * n_dot_l - n_dot_h * n_dot_l * roughness^2",
     ] {
         check(text);
     }
