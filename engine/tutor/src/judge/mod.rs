@@ -98,6 +98,10 @@ struct Criterion {
     phrases: Vec<Phrase>,
     against: Vec<Phrase>,
     unless: Vec<String>,
+    /// Places, surfaces and materials that it is about.
+    topics: Vec<u16>,
+    /// Whether a pass needs it.
+    required: bool,
 }
 
 /// A rubric made ready for judging.
@@ -142,19 +146,32 @@ impl Judge {
                 .map(|text| Phrase::new(lexicon, text, &setting))
                 .collect::<Vec<_>>()
         };
+        let generic = |id: u16| matches!(lexicon.concept(id).name.as_str(), "whole" | "highlight");
+        let criterion = |id: &str, phrases: &[String], against: &[String]| {
+            let phrases = read(phrases);
+            let topics: BTreeSet<u16> = phrases
+                .iter()
+                .flat_map(Phrase::topics)
+                .filter(|&id| !generic(id))
+                .collect();
+            Criterion {
+                id: id.to_owned(),
+                is_misconception: false,
+                topics: topics.into_iter().collect(),
+                phrases,
+                against: read(against),
+                unless: Vec::new(),
+                required: false,
+            }
+        };
         let expectations = rubric.expectation.iter().map(|e| Criterion {
-            id: e.id.clone(),
-            is_misconception: false,
-            phrases: read(&e.phrases),
-            against: read(&e.against),
-            unless: Vec::new(),
+            required: e.required,
+            ..criterion(&e.id, &e.phrases, &e.against)
         });
         let misconceptions = rubric.misconception.iter().map(|m| Criterion {
-            id: m.id.clone(),
             is_misconception: true,
-            phrases: read(&m.phrases),
-            against: read(&m.against),
             unless: m.unless.clone(),
+            ..criterion(&m.id, &m.phrases, &m.against)
         });
         let understood = setting.order[QUANTITY]
             .iter()
@@ -361,6 +378,14 @@ impl Criterion {
             _ if against >= STATED => Finding::Absent,
             score if score >= STATED => Finding::Stated(best),
             score if score >= PERHAPS => Finding::Perhaps(best),
+            // It speaks of the right thing in words that are not known: no ground to say no.
+            _ if self.required => match reading.unread(lexicon, &self.topics) {
+                Some(range) => Finding::Perhaps(Hit {
+                    score: PERHAPS,
+                    range,
+                }),
+                None => Finding::Absent,
+            },
             _ => Finding::Absent,
         }
     }

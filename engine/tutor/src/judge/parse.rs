@@ -155,15 +155,52 @@ fn find(lexicon: &Lexicon, tokens: &[Token], forms: &[Form]) -> Vec<Match> {
             continue;
         }
         if !concepts.is_empty() {
+            let names = concepts
+                .iter()
+                .any(|&id| matches!(lexicon.concept(id).role, Role::Entity(_)));
+            out.push(Match {
+                start: at,
+                end: at + taken,
+                concepts,
+            });
+            if taken > 1 && !names {
+                embedded(lexicon, forms, at, at + taken, &mut out);
+            }
+        }
+        at += taken;
+    }
+    out
+}
+
+/// Places, surfaces and facets named inside a longer expression: the mirror of "a perfect
+/// mirror".
+fn embedded(lexicon: &Lexicon, forms: &[Form], start: usize, end: usize, out: &mut Vec<Match>) {
+    for at in start..end {
+        // The whole expression itself is not looked for again.
+        let within = if at == start { end - 1 } else { end };
+        let Some((taken, concepts)) = lexicon.longest(&forms[..within], at) else {
+            continue;
+        };
+        let specific = |id: &Id| match lexicon.concept(*id).role {
+            Role::Entity(PLACE) => {
+                !matches!(lexicon.concept(*id).name.as_str(), "whole" | "highlight")
+            }
+            Role::Entity(class) => class == SURFACE || class == MATERIAL,
+            Role::Thing => matches!(
+                lexicon.concept(*id).name.as_str(),
+                "facets" | "normals" | "halfvector"
+            ),
+            _ => false,
+        };
+        let concepts: Vec<Id> = concepts.into_iter().filter(specific).collect();
+        if at + taken <= end && !concepts.is_empty() {
             out.push(Match {
                 start: at,
                 end: at + taken,
                 concepts,
             });
         }
-        at += taken;
     }
-    out
 }
 
 /// Clause and sentence of each token.
@@ -510,6 +547,15 @@ impl Reading {
                     compared = compared.or_else(|| self.compared(list, cursor[class], found));
                 }
             }
+            // A place named before the talk turned to another surface is not its place.
+            let since = |class: usize| about[class].as_ref().map_or(0, |a: &About| a.tokens.0);
+            if about[PLACE]
+                .as_ref()
+                .is_some_and(|a| a.held == Held::Remembered)
+                && since(SURFACE).max(since(MATERIAL)) > since(PLACE)
+            {
+                about[PLACE] = None;
+            }
             let (clause, sentence) = (self.clause[found.start], self.sentence[found.start]);
             let statement = Statement {
                 concepts: found.concepts.clone(),
@@ -596,7 +642,14 @@ impl Reading {
                     .clone()
                     .all(|i| grammar::is_copula(&self.tokens[i].word) || self.tokens[i].is("not"))
             {
-                // "rim bright", "rim is bright": but "the centre is darker at the rim"?
+                // "rim bright", "rim is bright"; yet "the reflection is weaker at the rim".
+                if self.generic.contains(&prev.concept)
+                    && let Some(m) = after_here.filter(|m| !self.generic.contains(&m.concept))
+                    && (found.end..m.start).any(|i| is_preposition(&self.tokens[i].word))
+                    && m.start - found.end <= 4
+                {
+                    return local(m);
+                }
                 return local(prev);
             }
         }
@@ -787,14 +840,53 @@ impl Reading {
         // "a quarter as bright as it should be" does not say bright.
         for statement in &mut self.statements {
             let (start, end) = statement.tokens;
+            let share = |t: &Token| {
+                matches!(
+                    t.word.as_str(),
+                    "#1/4" | "quarter" | "half" | "third" | "#num" | "#0.9" | "fourth" | "fraction"
+                )
+            };
             let measured = start > 0
                 && self.tokens[start - 1].is("as")
-                && self.tokens.get(end).is_some_and(|t| t.is("as"));
+                && (self.tokens.get(end).is_some_and(|t| t.is("as"))
+                    || self.tokens[start.saturating_sub(4)..start]
+                        .iter()
+                        .any(share));
             statement.void |= measured;
         }
+        self.pass_through(lexicon);
         self.take_back(lexicon);
         self.dismiss();
         self.complete(lexicon);
+    }
+
+    /// "it collapses to 1 -> 1/pi": the last value of a chain is the one meant.
+    fn pass_through(&mut self, lexicon: &Lexicon) {
+        let number = |s: &Statement| {
+            s.concepts
+                .iter()
+                .any(|&id| matches!(lexicon.concept(id).name.as_str(), "one" | "zero"))
+        };
+        let value = |s: &Statement| {
+            s.concepts.iter().any(|&id| {
+                matches!(
+                    lexicon.concept(id).name.as_str(),
+                    "singular" | "oneoverpi" | "quarter"
+                )
+            })
+        };
+        for index in 1..self.statements.len() {
+            let (before, after) = self.statements.split_at_mut(index);
+            let (first, second) = (&mut before[index - 1], &after[0]);
+            let leads = second.tokens.0 == first.tokens.1 + 1
+                && self
+                    .tokens
+                    .get(first.tokens.1)
+                    .is_some_and(|t| t.is("->") || t.is("=") || t.is("/"));
+            if leads && number(first) && value(second) {
+                first.void = true;
+            }
+        }
     }
 
     /// "The edges get too dark, and the centre too": says the same of the centre.
@@ -986,6 +1078,62 @@ impl Reading {
                 statement.void |= statement.clause < clause || opens;
             }
         }
+    }
+
+    /// The first clause that speaks of one of these and says something of it in words that
+    /// are not known.
+    pub fn unread(&self, lexicon: &Lexicon, topics: &[Id]) -> Option<(usize, usize)> {
+        let heard = self
+            .statements
+            .iter()
+            .filter(|s| {
+                s.concepts
+                    .iter()
+                    .any(|&id| lexicon.concept(id).role == Role::State)
+            })
+            .any(|s| {
+                s.about.iter().flatten().any(|about| {
+                    about.held >= Held::Inherited
+                        && about.concepts.iter().any(|id| topics.contains(id))
+                })
+            });
+        if heard {
+            return None;
+        }
+        let mut start = 0;
+        while start < self.tokens.len() {
+            let clause = self.clause[start];
+            let end = start
+                + self.clause[start..]
+                    .iter()
+                    .take_while(|&&c| c == clause)
+                    .count();
+            let (from, to) = self.of_clause[clause];
+            let here = self.statements[from..to]
+                .iter()
+                .filter(|s| s.clause == clause);
+            let names = here
+                .clone()
+                .any(|s| s.concepts.iter().any(|id| topics.contains(id)) && !s.void);
+            let says = here.clone().any(|s| {
+                s.concepts
+                    .iter()
+                    .any(|&id| lexicon.concept(id).role == Role::State)
+            });
+            let strange = (start..end).any(|i| {
+                let token = &self.tokens[i];
+                !self.heard[i]
+                    && token.kind == Kind::Word
+                    && token.word.len() > 3
+                    && !grammar::is_known(&token.word)
+                    && !grammar::is_known(&self.forms[i].stem)
+            });
+            if names && strange && !says {
+                return Some((self.tokens[start].start, self.tokens[end - 1].end));
+            }
+            start = end;
+        }
+        None
     }
 
     fn index(&mut self) {

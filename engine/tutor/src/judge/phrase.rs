@@ -92,6 +92,9 @@ impl Phrase {
             (true, false) => things[..1].to_vec(),
             (true, true) => reading.statements.iter().rev().take(1).collect(),
         };
+        // A lone name says nothing.
+        let alone = states.is_empty() && things.is_empty() && reading.statements.len() < 2;
+        let anchors = if alone { Vec::new() } else { anchors };
         let single = anchors.iter().all(|s| s.clause == anchors[0].clause) || anchors.len() == 1;
         let mut atoms: Vec<Atom> = anchors
             .iter()
@@ -197,6 +200,15 @@ impl Phrase {
         }
     }
 
+    /// The places, surfaces and materials that the phrase is about.
+    pub fn topics(&self) -> impl Iterator<Item = Id> + '_ {
+        self.atoms.iter().flat_map(|atom| {
+            [PLACE, SURFACE, MATERIAL]
+                .into_iter()
+                .flat_map(|class| atom.about[class].iter().copied())
+        })
+    }
+
     /// The phrase as the judge understands it, for authors.
     pub fn explain(&self, lexicon: &Lexicon) -> String {
         let names = |ids: &[Id]| {
@@ -239,7 +251,7 @@ fn keep(lexicon: &Lexicon, ids: &[Id], role: Option<Role>) -> Vec<Id> {
 
 /// How well a word's senses meet those of a phrase. The first sense of a word is the one
 /// meant; two words that meet only in their further senses do not mean the same.
-fn senses(wanted: &[Id], said: &[Id], as_said: impl Fn(Id) -> Option<Id>) -> f64 {
+fn senses(wanted: &[Id], said: &[Id], ears: Ears, as_said: impl Fn(Id) -> Option<Id>) -> f64 {
     let mut best: f64 = 0.0;
     for (i, &id) in said.iter().enumerate() {
         let Some(id) = as_said(id) else { continue };
@@ -251,6 +263,7 @@ fn senses(wanted: &[Id], said: &[Id], as_said: impl Fn(Id) -> Option<Id>) -> f64
             debug_assert_eq!(sought, id);
             best = best.max(match (i, j) {
                 (0, 0) => 1.0,
+                (_, 0) if ears.strict => 0.7,
                 (_, 0) => 0.95,
                 _ => 0.45,
             });
@@ -296,7 +309,7 @@ impl Atom {
             };
         }
         for statement in reading.statements.iter().filter(|s| !s.void) {
-            let mut score = self.polarity(lexicon, statement, contrary);
+            let mut score = self.polarity(lexicon, statement, ears, contrary);
             if score < PERHAPS {
                 continue;
             }
@@ -317,9 +330,15 @@ impl Atom {
     }
 
     /// Does the statement say it (or, if asked, the contrary), and how clearly?
-    fn polarity(&self, lexicon: &Lexicon, statement: &Statement, contrary: bool) -> f64 {
-        let says = senses(&self.anchor, &statement.concepts, Some);
-        let opposite = senses(&self.anchor, &statement.concepts, |id| {
+    fn polarity(
+        &self,
+        lexicon: &Lexicon,
+        statement: &Statement,
+        ears: Ears,
+        contrary: bool,
+    ) -> f64 {
+        let says = senses(&self.anchor, &statement.concepts, ears, Some);
+        let opposite = senses(&self.anchor, &statement.concepts, ears, |id| {
             lexicon.concept(id).antonym
         });
         let binary = statement
@@ -397,7 +416,7 @@ impl Atom {
                         0.45
                     }
                     _ if ears.understands(wanted) => 0.9,
-                    MATERIAL => 0.6,
+                    MATERIAL => 0.5,
                     _ => 0.5,
                 },
                 Some(about) if about.concepts.iter().any(|id| wanted.contains(id)) => {
