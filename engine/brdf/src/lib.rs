@@ -12,6 +12,7 @@
 //!
 //! Nothing here touches a file, the environment, a clock, a thread or a random source.
 
+pub mod batch;
 pub mod d;
 pub mod diffuse;
 pub mod energy;

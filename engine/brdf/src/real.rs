@@ -6,7 +6,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 /// Floating point that a formula can be evaluated in: `f32` and `f64`.
 ///
 /// The elementary functions come from `libm`, so that results do not depend on the
-/// platform's C library. There is no `mul_add`: without hardware FMA it is a library call.
+/// platform's C library.
 pub trait Real:
     Copy
     + PartialOrd
@@ -80,6 +80,14 @@ pub trait Real:
     #[inline(always)]
     fn clamp_unit(self) -> Self {
         self.at_least(Self::of(0.0)).at_most(Self::of(1.0))
+    }
+
+    /// self · y + z: fused where that is an instruction, else a product and a sum.
+    ///
+    /// Never the library call that `f32::mul_add` is without FMA.
+    #[inline(always)]
+    fn mul_add(self, y: Self, z: Self) -> Self {
+        self * y + z
     }
 
     /// x².
@@ -295,5 +303,113 @@ impl Real for f32 {
     #[inline(always)]
     fn is_finite(self) -> bool {
         f32::is_finite(self)
+    }
+}
+
+/// Single precision in a batch: loaded from and stored to slices of `f32`.
+pub(crate) trait Single: Real {
+    /// From memory.
+    fn load(x: f32) -> Self;
+    /// To memory.
+    fn store(self) -> f32;
+}
+
+impl Single for f32 {
+    #[inline(always)]
+    fn load(x: f32) -> f32 {
+        x
+    }
+    #[inline(always)]
+    fn store(self) -> f32 {
+        self
+    }
+}
+
+/// Single precision where the machine multiplies and adds in one instruction.
+///
+/// Only for functions compiled with that feature: elsewhere each `mul_add` is a library call.
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
+pub(crate) struct Fused(f32);
+
+impl Single for Fused {
+    #[inline(always)]
+    fn load(x: f32) -> Fused {
+        Fused(x)
+    }
+    #[inline(always)]
+    fn store(self) -> f32 {
+        self.0
+    }
+}
+
+macro_rules! fused_operators {
+    ($($trait:ident $method:ident),*) => { $(
+        impl $trait for Fused {
+            type Output = Fused;
+            #[inline(always)]
+            fn $method(self, other: Fused) -> Fused {
+                Fused($trait::$method(self.0, other.0))
+            }
+        }
+    )* };
+}
+fused_operators!(Add add, Sub sub, Mul mul, Div div);
+
+impl Neg for Fused {
+    type Output = Fused;
+    #[inline(always)]
+    fn neg(self) -> Fused {
+        Fused(-self.0)
+    }
+}
+
+macro_rules! fused_functions {
+    ($($name:ident),*) => { $(
+        #[inline(always)]
+        fn $name(self) -> Fused {
+            Fused(Real::$name(self.0))
+        }
+    )* };
+}
+
+impl Real for Fused {
+    const EPSILON: f64 = <f32 as Real>::EPSILON;
+    const LARGE: f64 = f32::LARGE;
+    const TINY: f64 = f32::TINY;
+    const SPLITTER: f64 = f32::SPLITTER;
+    const ERFC_TERMS: usize = f32::ERFC_TERMS;
+
+    fused_functions!(sqrt, abs, exp, exp2, ln, ln_1p, sin, cos, asin, acos, atan);
+
+    #[inline(always)]
+    fn of(x: f64) -> Fused {
+        Fused(x as f32)
+    }
+    #[inline(always)]
+    fn to_f64(self) -> f64 {
+        f64::from(self.0)
+    }
+    fn powf(self, y: Fused) -> Fused {
+        Fused(Real::powf(self.0, y.0))
+    }
+    fn atan2(self, x: Fused) -> Fused {
+        Fused(Real::atan2(self.0, x.0))
+    }
+    #[inline(always)]
+    fn is_nan(self) -> bool {
+        self.0.is_nan()
+    }
+    #[inline(always)]
+    fn is_finite(self) -> bool {
+        self.0.is_finite()
+    }
+    #[inline(always)]
+    fn mul_add(self, y: Fused, z: Fused) -> Fused {
+        Fused(self.0.mul_add(y.0, z.0))
+    }
+    #[inline(always)]
+    fn two_prod(self, y: Fused) -> (Fused, Fused) {
+        let p = self * y;
+        (p, self.mul_add(y, -p))
     }
 }

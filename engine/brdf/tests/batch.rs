@@ -1,0 +1,226 @@
+//! The batches against the terms, in every instruction set of this machine.
+
+use brdf::batch::{self, Conductor, Cosines, Input, Isa, Samples, Vectors};
+use brdf::glam::Vec3;
+use brdf::{Fresnel, Ggx, Sampler, Specular, d_ggx, f_conductor, f_schlick, v_ggx};
+
+const COUNT: usize = 4099;
+
+struct Numbers(u64);
+
+impl Numbers {
+    fn unit(&mut self) -> f32 {
+        self.0 = self
+            .0
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        (self.0 >> 40) as f32 / (1u64 << 24) as f32
+    }
+
+    fn many(&mut self, low: f32) -> Vec<f32> {
+        (0..COUNT)
+            .map(|_| low + (1.0 - low) * self.unit())
+            .collect()
+    }
+
+    fn direction(&mut self) -> Vec3 {
+        let (z, phi) = (
+            self.unit() * 0.999 + 0.001,
+            self.unit() * std::f32::consts::TAU,
+        );
+        let sin = ((1.0 - z) * (1.0 + z)).sqrt();
+        Vec3::new(sin * phi.cos(), sin * phi.sin(), z).normalize()
+    }
+}
+
+/// Worst distance in units of the last place of the truth.
+fn worst_ulp(values: &[f32], truth: impl Fn(usize) -> f64) -> f64 {
+    let ulp = |truth: f64| (truth.abs().max(1e-38).log2().floor() - 23.0).exp2();
+    let error = |i: usize| (f64::from(values[i]) - truth(i)).abs() / ulp(truth(i));
+    (0..values.len()).map(error).fold(0.0, f64::max)
+}
+
+#[track_caller]
+fn check(what: &str, isa: Isa, worst: f64, bound: f64) {
+    println!("{what:20} {:9} {worst:.1}", isa.name());
+    assert!(worst <= bound, "{what} in {}: {worst} ulps", isa.name());
+}
+
+#[test]
+fn cosines() {
+    let mut numbers = Numbers(1);
+    let [l, v, h, u] = [0; 4].map(|_| numbers.many(1e-3));
+    let (alpha, f0) = (numbers.many(1e-4), numbers.many(0.0));
+    for isa in Isa::available() {
+        for hoisted in 0..12 {
+            let pick = |bit: usize, values: &'static [f32], one| {
+                if hoisted & bit == 0 {
+                    Input::Each(values)
+                } else {
+                    Input::All(one)
+                }
+            };
+            let leak = |values: &Vec<f32>| &*values.clone().leak();
+            let (n_dot_v, alpha_in) = (pick(1, leak(&v), 0.6), pick(2, leak(&alpha), 0.3));
+            let f0_in = match hoisted / 4 {
+                0 => None,
+                1 => Some(Input::Each(&f0)),
+                _ => Some(Input::All(0.04)),
+            };
+            let input = Cosines {
+                n_dot_l: &l,
+                n_dot_v,
+                n_dot_h: &h,
+                v_dot_h: &u,
+                alpha: alpha_in,
+                f0: f0_in,
+            };
+            let mut out = vec![0.0; COUNT];
+            batch::specular(isa, &input, &mut out);
+            let at = |input: Input, i: usize| match input {
+                Input::Each(values) => f64::from(values[i]),
+                Input::All(value) => f64::from(value),
+            };
+            let worst = worst_ulp(&out, |i| {
+                let (l, v, a) = (f64::from(l[i]), at(n_dot_v, i), at(alpha_in, i));
+                let f = f0_in.map_or(1.0, |f0| f_schlick(at(f0, i), f64::from(u[i])));
+                d_ggx(f64::from(h[i]), a) * v_ggx(l, v, a) * f * l
+            });
+            check("specular", isa, worst, 25.0);
+        }
+    }
+}
+
+#[test]
+fn vectors() {
+    let mut numbers = Numbers(2);
+    let l: Vec<Vec3> = (0..COUNT).map(|_| numbers.direction()).collect();
+    let v: Vec<Vec3> = (0..COUNT).map(|_| numbers.direction()).collect();
+    let column = |of: &[Vec3], i: usize| of.iter().map(|v| v[i]).collect::<Vec<f32>>();
+    let ([lx, ly, lz], [vx, vy, vz]) = (
+        [0, 1, 2].map(|i| column(&l, i)),
+        [0, 1, 2].map(|i| column(&v, i)),
+    );
+    for isa in Isa::available() {
+        for alpha in [0.01f32, 0.3, 1.0] {
+            let truth = |i: usize| {
+                let lobe = Specular {
+                    ggx: Ggx::new(f64::from(alpha)),
+                    fresnel: Fresnel::Schlick {
+                        f0: [f64::from(0.04f32); 3],
+                    },
+                };
+                let wide = |v: Vec3| v.to_array().map(f64::from);
+                lobe.eval_cos(wide(l[i]), wide(v[i]))[0]
+            };
+            let mut out = vec![0.0; COUNT];
+            let input = Vectors {
+                l: [&lx, &ly, &lz],
+                v: [Input::Each(&vx), Input::Each(&vy), Input::Each(&vz)],
+                alpha: Input::All(alpha),
+                f0: Some(Input::All(0.04)),
+            };
+            batch::specular_vectors(isa, &input, &mut out);
+            check("vectors", isa, worst_ulp(&out, truth), 30.0);
+            let mut transposed = vec![0.0; COUNT];
+            batch::specular_vec3(isa, &l, &v, alpha, Some(0.04), &mut transposed);
+            assert_eq!(out, transposed);
+        }
+    }
+}
+
+#[test]
+fn conductors() {
+    let mut numbers = Numbers(3);
+    let u = numbers.many(0.0);
+    for (n, k) in [
+        (0.143, 3.983),
+        (0.375, 2.386),
+        (1.442, 1.603),
+        (1.5, 0.0),
+        (0.05, 4.0),
+        (3.1, 3.3),
+        (1.0, 0.1),
+    ] {
+        let color = Conductor::new(n, k);
+        for isa in Isa::available() {
+            let [mut r, mut g, mut b] = [0; 3].map(|_| vec![0.0; COUNT]);
+            batch::conductor_rgb(isa, &[color; 3], &u, [&mut r, &mut g, &mut b]);
+            let truth = |i: usize| f_conductor(f64::from(n), f64::from(k), f64::from(u[i]));
+            check(
+                &format!("conductor {n} {k}"),
+                isa,
+                worst_ulp(&r, truth),
+                12.0,
+            );
+            assert_eq!(r, b);
+        }
+    }
+}
+
+#[test]
+fn samples() {
+    let mut numbers = Numbers(4);
+    let [u0, u1] = [0; 2].map(|_| numbers.many(0.0));
+    for isa in Isa::available() {
+        for alpha in [0.05f32, 0.4, 1.0] {
+            let v = Vec3::new(0.48, -0.36, 0.8);
+            let [mut x, mut y, mut z, mut pdf, mut weight] = [0; 5].map(|_| vec![0.0; COUNT]);
+            let out = Samples {
+                l: [&mut x, &mut y, &mut z],
+                pdf: &mut pdf,
+                weight: &mut weight,
+            };
+            batch::sample(isa, v, alpha, [&u0, &u1], out);
+            let ggx = Ggx::new(f64::from(alpha));
+            let wide = v.to_array().map(f64::from);
+            for i in 0..COUNT {
+                let truth = ggx.sample(
+                    wide,
+                    [f64::from(u0[i]), f64::from(u1[i])],
+                    Sampler::BoundedCap,
+                );
+                let l = [x[i], y[i], z[i]].map(f64::from);
+                for (value, truth) in l.into_iter().zip(truth.l) {
+                    assert!(
+                        (value - truth).abs() < 2e-6 + 4e-7 / f64::from(alpha),
+                        "{alpha} {i}: {l:?}, not {truth:?}"
+                    );
+                }
+                assert!(
+                    (f64::from(weight[i]) - truth.weight).abs() < 1e-5 / f64::from(alpha),
+                    "{i}: {} {}",
+                    weight[i],
+                    truth.weight
+                );
+                let error = (f64::from(pdf[i]) - truth.pdf).abs() / truth.pdf;
+                assert!(
+                    error < 1e-5 / f64::from(alpha),
+                    "{alpha} {i}: {} {}",
+                    pdf[i],
+                    truth.pdf
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn short_and_hostile() {
+    for isa in Isa::available() {
+        let mut out = [7.0; 3];
+        let (l, h) = ([0.5, -1.0, 0.0], [0.9; 9]);
+        let input = Cosines {
+            n_dot_l: &l,
+            n_dot_v: Input::All(0.5),
+            n_dot_h: &h,
+            v_dot_h: &h,
+            alpha: Input::All(0.5),
+            f0: None,
+        };
+        batch::specular(isa, &input, &mut out);
+        assert!(out[0] > 0.0);
+        assert_eq!(out[1..], [0.0, 0.0]);
+        batch::specular(isa, &input, &mut []);
+    }
+}
