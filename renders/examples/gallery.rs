@@ -1,7 +1,7 @@
 //! Draws the fingerprints that are worth looking at while working on this crate:
 //! `cargo run -p renders --example gallery -- DIR [SIZE]`.
 
-use renders::{Backend, Fingerprint, Options, PlotSpec, Scene};
+use renders::{Backend, Fingerprint, MapSpec, Options, PlotSpec, Scale, Scene};
 use std::sync::atomic::AtomicBool;
 
 const ROWS: [(&str, &str, &str, f64, f64, f64); 8] = [
@@ -125,5 +125,52 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         format!("{folder}/plot.png"),
         renders::plot_png(&plot, 800, 500)?,
     )?;
+    maps(&folder)
+}
+
+/// White furnaces: the albedo of the correct lobe and of the one that divides twice.
+fn maps(folder: &str) -> Result<(), Box<dyn std::error::Error>> {
+    const CELLS: usize = 40;
+    let library = formula::Library::new();
+    for (id, text, scale, value_label) in [
+        (
+            "furnace",
+            "albedo_ggx()",
+            Scale::Linear(0.0, 1.0),
+            "albedo, F = 1",
+        ),
+        (
+            "furnace-divided-twice",
+            "albedo_ggx_divided_twice() / albedo_ggx()",
+            Scale::Ratio,
+            "albedo, divided twice / correct",
+        ),
+    ] {
+        let expr = formula::parse(text)?;
+        let cell = |i: usize| (i as f64 + 0.5) / CELLS as f64;
+        let mut values = Vec::new();
+        for row in 0..CELLS {
+            for column in 0..CELLS {
+                let given = [("n_dot_v", cell(column)), ("roughness", cell(row))];
+                let given = given.map(|(name, value)| (name.to_owned(), value)).into();
+                values.push(library.eval(&expr, &given)?);
+            }
+        }
+        let spec = MapSpec {
+            title: format!("White furnace: {text}"),
+            x_label: "N·V".to_owned(),
+            y_label: "roughness".to_owned(),
+            value_label: value_label.to_owned(),
+            x: (0.0, 1.0),
+            y: (0.0, 1.0),
+            columns: CELLS,
+            values,
+            scale,
+        };
+        std::fs::write(
+            format!("{folder}/{id}.png"),
+            renders::map_png(&spec, 800, 560)?,
+        )?;
+    }
     Ok(())
 }

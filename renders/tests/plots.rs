@@ -1,6 +1,6 @@
 //! Plots keep what they are given: labels, curves, marks.
 
-use renders::{Error, PlotSpec, plot_png, plot_svg};
+use renders::{Error, MapSpec, PlotSpec, Scale, map_png, plot_png, plot_svg};
 
 fn spec() -> PlotSpec {
     PlotSpec {
@@ -58,4 +58,43 @@ fn a_plot_without_values_or_room_is_an_error() {
     ));
     assert!(matches!(plot_png(&spec(), 20, 20), Err(Error::Plot(_))));
     assert!(matches!(plot_svg(&spec(), 0, 0), Err(Error::Plot(_))));
+}
+
+fn map(scale: Scale, values: Vec<f64>) -> MapSpec {
+    MapSpec {
+        title: "a map".to_owned(),
+        x_label: "N·V".to_owned(),
+        y_label: "roughness".to_owned(),
+        value_label: "albedo".to_owned(),
+        x: (0.0, 1.0),
+        y: (0.0, 1.0),
+        columns: 2,
+        values,
+        scale,
+    }
+}
+
+#[test]
+fn a_map_is_a_picture_whatever_its_values() {
+    for scale in [
+        Scale::Linear(0.0, 1.0),
+        Scale::Log(0.01, 100.0),
+        Scale::Ratio,
+    ] {
+        let values = vec![0.0, f64::NAN, f64::INFINITY, 0.5];
+        let png = map_png(&map(scale, values), 400, 300).expect("a map");
+        assert!(png.starts_with(b"\x89PNG\r\n"));
+    }
+    assert!(matches!(
+        map_png(&map(Scale::Ratio, vec![1.0; 3]), 400, 300),
+        Err(Error::Plot(_))
+    ));
+    assert!(matches!(
+        map_png(&map(Scale::Ratio, vec![]), 400, 300),
+        Err(Error::Plot(_))
+    ));
+    assert!(matches!(
+        map_png(&map(Scale::Ratio, vec![1.0; 4]), 30, 30),
+        Err(Error::Plot(_))
+    ));
 }
