@@ -63,6 +63,8 @@ struct EntryWord {
     word: String,
     stem: String,
     exact: bool,
+    /// Whether an article may stand before it.
+    article: bool,
 }
 
 /// A word of an answer, with the forms by which it may be found.
@@ -188,10 +190,12 @@ impl Lexicon {
     }
 
     fn add(&mut self, entry: &str, concept: Id) {
-        let mut words = Vec::new();
+        let mut words: Vec<EntryWord> = Vec::new();
+        let mut article = false;
         for raw in entry.split_whitespace() {
             // Articles come and go inside an expression.
-            if !words.is_empty() && matches!(raw, "the" | "a" | "an") {
+            if !words.is_empty() && is_article(raw) {
+                article = true;
                 continue;
             }
             let exact = raw.starts_with('=') && raw.len() > 1;
@@ -199,11 +203,17 @@ impl Lexicon {
                 let stem = stem(&word);
                 self.vocabulary.insert(word.clone());
                 self.stems.insert(stem.clone());
+                article |= words.last().is_some_and(|last| {
+                    spelling::is_preposition(&last.word)
+                        || matches!(last.word.as_str(), "all" | "both" | "half")
+                });
                 words.push(EntryWord {
                     exact: exact || word.starts_with('#'),
                     stem,
                     word,
+                    article,
                 });
+                article = false;
             }
         }
         let Some(first) = words.first() else { return };
@@ -310,6 +320,14 @@ impl Lexicon {
 fn matches(entry: &Entry, forms: &[Form], at: usize) -> Option<(usize, usize)> {
     let mut next = at;
     let mut all_exact = true;
+    let long = entry.words.len() > 2;
+    let counted = |position: usize| {
+        position > 0
+            && matches!(
+                entry.words[position - 1].word.as_str(),
+                "one" | "single" | "same"
+            )
+    };
     for (position, wanted) in entry.words.iter().enumerate() {
         loop {
             let form = forms.get(next)?;
@@ -322,14 +340,9 @@ fn matches(entry: &Entry, forms: &[Form], at: usize) -> Option<(usize, usize)> {
                 break;
             }
             let inside = position > 0 && next < at + position + 2;
-            let article = || {
-                is_article(&form.word)
-                    && !matches!(
-                        entry.words[position - 1].word.as_str(),
-                        "one" | "single" | "same"
-                    )
-            };
-            let skipped = inside && (is_filler(&form.word) || article());
+            let skipped = inside
+                && (is_filler(&form.word)
+                    || is_article(&form.word) && (wanted.article || long && !counted(position)));
             if !skipped {
                 return None;
             }

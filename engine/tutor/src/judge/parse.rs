@@ -107,6 +107,20 @@ pub fn read(lexicon: &Lexicon, tokens: Vec<Token>, setting: &Setting, mute: &[bo
     let mut matches = find(lexicon, &tokens, &forms);
     let (clause, sentence) = clauses(lexicon, &tokens, &matches);
     let denied = denials(lexicon, &tokens, &matches, &clause, &sentence);
+    let question_known = setting.order.iter().any(|order| !order.is_empty());
+    if question_known
+        && !lexicon
+            .id("artist")
+            .is_some_and(|artist| setting.order[CAUSE].contains(&artist))
+    {
+        // Where the question names no artist, a lamp is a lamp.
+        for found in &mut matches {
+            found
+                .concepts
+                .retain(|&id| lexicon.concept(id).role != Role::Entity(CAUSE));
+        }
+        matches.retain(|found| !found.concepts.is_empty());
+    }
     suppose(lexicon, &tokens, &mut matches, &sentence, setting);
     resolve_ordinals(lexicon, &tokens, &mut matches, setting);
     let mut heard = vec![false; tokens.len()];
@@ -618,6 +632,7 @@ impl Reading {
         if let Some(own) = list
             .get(next)
             .filter(|m| m.start >= found.start && m.end <= found.end)
+            .filter(|m| !(self.generic.contains(&m.concept) && is_state[found.start]))
         {
             let concepts = list[next..]
                 .iter()
@@ -630,11 +645,25 @@ impl Reading {
                 tokens: (own.start, own.end),
             });
         }
-        let after = list.get(next).filter(|m| m.start >= found.end);
+        let after = list[next.min(list.len())..]
+            .iter()
+            .take(4)
+            .find(|m| m.start >= found.end);
         let before = self.before(list, next, clause, found.start);
         let local =
             |m: &Mention| Some(self.with_partner(list, self.specific(list, m), Held::Local));
         let after_here = after.filter(|m| self.clause[m.start] == clause);
+        // "the ball has the larger highlight": an article before the word binds it forward.
+        let article = found.start > 0
+            && matches!(
+                self.tokens[found.start - 1].word.as_str(),
+                "the" | "a" | "an" | "this" | "its" | "no"
+            );
+        if let Some(m) = after_here.filter(|m| article && m.start - found.end <= 2)
+            && (found.end..m.start).all(|i| is_state[i] || self.tokens[i].is("and"))
+        {
+            return local(m);
+        }
         if let Some(prev) = before.filter(|m| self.clause[m.start] == clause) {
             let gap = prev.end..found.start;
             if gap.len() <= 3
@@ -930,7 +959,22 @@ impl Reading {
                         )
                     })
             });
-            if !(trails || leads) {
+            let above_all = (start.saturating_sub(2)..start).any(|i| {
+                matches!(
+                    self.tokens[i].word.as_str(),
+                    "mostly"
+                        | "especially"
+                        | "particularly"
+                        | "mainly"
+                        | "chiefly"
+                        | "notably"
+                        | "particular"
+                )
+            }) && !self.statements[index..]
+                .iter()
+                .take_while(|s| s.clause == entity.clause)
+                .any(is_state);
+            if !(trails || leads || above_all) {
                 continue;
             }
             let about = entity.about[class].clone();

@@ -313,6 +313,13 @@ impl Atom {
             if score < PERHAPS {
                 continue;
             }
+            // A further sense of a word, of a thing unnamed, is a guess.
+            if score < 1.0
+                && !self.about[QUANTITY].is_empty()
+                && statement.about[QUANTITY].is_none()
+            {
+                score *= 0.75;
+            }
             score *= self.topic(lexicon, statement, ears);
             if score < PERHAPS {
                 continue;
@@ -366,6 +373,7 @@ impl Atom {
             Held::Local
         };
         if of_cause
+            && !self.about[SURFACE].is_empty()
             && self.about[PLACE].is_empty()
             && statement.about[QUANTITY].is_none()
             && is_highlight(lexicon, statement, held)
@@ -408,6 +416,8 @@ impl Atom {
                 None => match class {
                     PLACE => 0.55,
                     SURFACE if ears.strict => 0.45,
+                    QUANTITY if self.is_size(lexicon) => 0.5,
+                    CAUSE if is(wanted, "artist") => 0.5,
                     SURFACE | CAUSE => 0.8,
                     QUANTITY
                         if self.is_value(lexicon)
@@ -450,6 +460,13 @@ impl Atom {
             };
         }
         score
+    }
+
+    /// Whether the phrase says how big something is: of what, must be named.
+    fn is_size(&self, lexicon: &Lexicon) -> bool {
+        self.anchor
+            .first()
+            .is_some_and(|&id| matches!(lexicon.concept(id).name.as_str(), "small" | "big"))
     }
 
     /// Whether the phrase says which value something has.

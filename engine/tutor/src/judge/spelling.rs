@@ -97,6 +97,25 @@ pub fn expand(tokens: Vec<Token>, answer: &str) -> Vec<Token> {
                 continue;
             }
         }
+        // "light at the sides", "too light": not the thing, but bright.
+        let previous = out.last().map(|t| t.word.as_str()).unwrap_or_default();
+        let measured = matches!(previous, "too" | "very" | "so" | "becomes" | "looks");
+        let follows = next.is_none_or(|t| {
+            t.kind != Kind::Word
+                || matches!(
+                    t.word.as_str(),
+                    "at" | "in" | "on" | "and" | "but" | "there" | "near" | "around" | "towards"
+                )
+        });
+        let opens = out.last().is_none_or(|t| t.kind != Kind::Word);
+        let measures = measured || opens && next.is_some_and(|t| is_preposition(&t.word));
+        if token.is("light") && follows && measures {
+            out.push(Token {
+                word: "bright".to_owned(),
+                ..token.clone()
+            });
+            continue;
+        }
         let symbol = matches!(token.word.as_str(), "r" | "w" | "u")
             && next.is_some_and(|t| t.kind != Kind::Word);
         let chat = if token.is("v2") || token.is("norm") {
