@@ -94,6 +94,9 @@ impl Input<'_> {
 
 /// An [`Input`] whose kind is known at compile time.
 trait Source: Copy {
+    /// Cut to a length, so that the loop needs no bounds checks.
+    fn cut(self, n: usize) -> Self;
+    /// The value for one evaluation.
     fn at<S: Single>(self, i: usize) -> S;
 }
 
@@ -105,12 +108,20 @@ struct All(f32);
 
 impl Source for Each<'_> {
     #[inline(always)]
+    fn cut(self, n: usize) -> Self {
+        Each(&self.0[..n])
+    }
+    #[inline(always)]
     fn at<S: Single>(self, i: usize) -> S {
         S::load(self.0[i])
     }
 }
 
 impl Source for All {
+    #[inline(always)]
+    fn cut(self, _: usize) -> All {
+        self
+    }
     #[inline(always)]
     fn at<S: Single>(self, _: usize) -> S {
         S::load(self.0)
@@ -233,6 +244,7 @@ fn specular_perfect_loop<S: Single>(
 ) {
     let n = out.len();
     let (light, h) = (&input.n_dot_l[..n], &input.n_dot_h[..n]);
+    let (view, alpha) = (view.cut(n), alpha.cut(n));
     for i in 0..n {
         out[i] = specular_cos(
             S::load(light[i]),
@@ -251,8 +263,10 @@ fn specular_cos<S: Single>(l: S, v: S, h: S, alpha: S) -> S {
     let a2 = alpha * alpha;
     let ah = alpha * h;
     let t = ah.mul_add(ah, (one - h) * (one + h));
-    let projected = |c: S| (c * c).mul_add(one - a2, a2).sqrt();
-    let w = l.mul_add(projected(v), v * projected(l));
+    let w = l.mul_add(
+        (v * v).mul_add(one - a2, a2).sqrt(),
+        v * (l * l).mul_add(one - a2, a2).sqrt(),
+    );
     on_lit_side(l, v, a2 * lit(0.5 * FRAC_1_PI) * l / (t * t * w))
 }
 
@@ -334,35 +348,69 @@ fn vectors_view<S: Single, X: Source, Y: Source, Z: Source>(
     out: &mut [f32],
 ) {
     let n = out.len();
-    let [lx, ly, lz] = input.l.map(|l| &l[..n]);
-    let load = |i: usize| {
-        let l = [S::load(lx[i]), S::load(ly[i]), S::load(lz[i])];
-        (l, [view.0.at::<S>(i), view.1.at::<S>(i), view.2.at::<S>(i)])
-    };
     for_kinds!(n; input.alpha, alpha => match input.f0 {
-        None => for i in 0..n {
-            let (l, v) = load(i);
-            out[i] = vectors_cos(l, v, alpha.at::<S>(i)).0.store();
-        },
-        Some(f0) => for_kinds!(n; f0, f0 => for i in 0..n {
-            let (l, v) = load(i);
-            let (value, m) = vectors_cos(l, v, alpha.at::<S>(i));
-            out[i] = (value * schlick(f0.at::<S>(i), rest(l, v, m))).store();
-        }),
+        None => vectors_perfect_loop::<S>(input.l, view, alpha, out),
+        Some(f0) => for_kinds!(n; f0, f0 => vectors_loop::<S>(input.l, view, alpha, f0, out)),
     })
+}
+
+#[inline(always)]
+fn vectors_perfect_loop<S: Single>(
+    [x, y, z]: [&[f32]; 3],
+    view: (impl Source, impl Source, impl Source),
+    alpha: impl Source,
+    out: &mut [f32],
+) {
+    let n = out.len();
+    let (x, y, z, alpha) = (&x[..n], &y[..n], &z[..n], alpha.cut(n));
+    let view = (view.0.cut(n), view.1.cut(n), view.2.cut(n));
+    for i in 0..n {
+        let l = [S::load(x[i]), S::load(y[i]), S::load(z[i])];
+        let v = [view.0.at::<S>(i), view.1.at::<S>(i), view.2.at::<S>(i)];
+        out[i] = vectors_cos(l, v, alpha.at::<S>(i)).0.store();
+    }
+}
+
+#[inline(always)]
+fn vectors_loop<S: Single>(
+    [x, y, z]: [&[f32]; 3],
+    view: (impl Source, impl Source, impl Source),
+    alpha: impl Source,
+    f0: impl Source,
+    out: &mut [f32],
+) {
+    let n = out.len();
+    let (x, y, z, alpha, f0) = (&x[..n], &y[..n], &z[..n], alpha.cut(n), f0.cut(n));
+    let view = (view.0.cut(n), view.1.cut(n), view.2.cut(n));
+    for i in 0..n {
+        let l = [S::load(x[i]), S::load(y[i]), S::load(z[i])];
+        let v = [view.0.at::<S>(i), view.1.at::<S>(i), view.2.at::<S>(i)];
+        let (value, m) = vectors_cos(l, v, alpha.at::<S>(i));
+        out[i] = (value * schlick(f0.at::<S>(i), rest(l, v, m))).store();
+    }
+}
+
+/// x² + y².
+#[inline(always)]
+fn across<S: Single>(v: [S; 3]) -> S {
+    v[0].mul_add(v[0], v[1] * v[1])
+}
+
+/// sqrt(z² + α² (x² + y²)).
+#[inline(always)]
+fn projected<S: Single>(v: [S; 3], a2: S) -> S {
+    v[2].mul_add(v[2], a2 * across(v)).sqrt()
 }
 
 /// D V cos θ_l, and |l + v|².
 #[inline(always)]
 fn vectors_cos<S: Single>(l: [S; 3], v: [S; 3], alpha: S) -> (S, S) {
     let a2 = alpha * alpha;
-    let across = |x: [S; 3]| x[0].mul_add(x[0], x[1] * x[1]);
     let h = [l[0] + v[0], l[1] + v[1], l[2] + v[2]];
     let (s, c) = (across(h), h[2] * h[2]);
     let (m, t) = (s + c, a2.mul_add(c, s));
-    let projected = |x: [S; 3]| x[2].mul_add(x[2], a2 * across(x)).sqrt();
-    let w = l[2].mul_add(projected(v), v[2] * projected(l));
-    // (m/t)² as one quotient with the rest; t² alone would underflow for no α that is allowed.
+    let w = l[2].mul_add(projected(v, a2), v[2] * projected(l, a2));
+    // (m/t)² as one quotient with the rest; no α that is allowed makes t² underflow.
     let value = a2 * lit(0.5 * FRAC_1_PI) * (m * m) * l[2] / (t * t * w);
     (on_lit_side(l[2], v[2], value), m)
 }
@@ -387,31 +435,44 @@ pub fn specular_vec3(
     f0: Option<f32>,
     out: &mut [f32],
 ) {
-    const BLOCK: usize = 256;
-    let mut columns = [[0.0f32; BLOCK]; 6];
+    dispatch!(isa, vec3_body(l: &[Vec3], v: &[Vec3], alpha: f32, f0: Option<f32>, out: &mut [f32]))
+}
+
+const BLOCK: usize = 256;
+
+#[inline(always)]
+fn vec3_body<S: Single>(l: &[Vec3], v: &[Vec3], alpha: f32, f0: Option<f32>, out: &mut [f32]) {
     let n = out.len().min(l.len()).min(v.len());
-    for ((l, v), out) in l[..n]
+    let (mut light, mut view) = ([[0.0f32; BLOCK]; 3], [[0.0f32; BLOCK]; 3]);
+    let blocks = l[..n]
         .chunks(BLOCK)
         .zip(v[..n].chunks(BLOCK))
-        .zip(out[..n].chunks_mut(BLOCK))
-    {
-        for (i, (l, v)) in l.iter().zip(v).enumerate() {
-            for (column, value) in columns.iter_mut().zip([l.x, l.y, l.z, v.x, v.y, v.z]) {
-                column[i] = value;
-            }
+        .zip(out[..n].chunks_mut(BLOCK));
+    for ((l, v), out) in blocks {
+        transpose(l, &mut light);
+        transpose(v, &mut view);
+        let n = out.len();
+        let view = (
+            Each(&view[0][..n]),
+            Each(&view[1][..n]),
+            Each(&view[2][..n]),
+        );
+        let light = [&light[0][..n], &light[1][..n], &light[2][..n]];
+        match f0 {
+            None => vectors_perfect_loop::<S>(light, view, All(alpha), out),
+            Some(f0) => vectors_loop::<S>(light, view, All(alpha), All(f0), out),
         }
-        let column = |i: usize| &columns[i][..l.len()];
-        let input = Vectors {
-            l: [column(0), column(1), column(2)],
-            v: [
-                Input::Each(column(3)),
-                Input::Each(column(4)),
-                Input::Each(column(5)),
-            ],
-            alpha: Input::All(alpha),
-            f0: f0.map(Input::All),
-        };
-        specular_vectors(isa, &input, out);
+    }
+}
+
+#[inline(always)]
+fn transpose(vectors: &[Vec3], [x, y, z]: &mut [[f32; BLOCK]; 3]) {
+    let n = vectors.len().min(BLOCK);
+    let (vectors, x, y, z) = (&vectors[..n], &mut x[..n], &mut y[..n], &mut z[..n]);
+    for i in 0..n {
+        x[i] = vectors[i].x;
+        y[i] = vectors[i].y;
+        z[i] = vectors[i].z;
     }
 }
 
@@ -424,12 +485,13 @@ pub struct Conductor {
     n: f32,
     k: f32,
     /// Coefficients of a/polynomial in 2 sin²θ − 1, or `None` where too few digits would do.
-    smooth: Option<[f32; Conductor::DEGREE + 1]>,
+    smooth: Option<[f32; COEFFICIENTS]>,
 }
 
-impl Conductor {
-    const DEGREE: usize = 7;
+/// Of a polynomial of degree 5, which is enough for every metal.
+const COEFFICIENTS: usize = 6;
 
+impl Conductor {
     /// Fits the polynomial; its error is checked.
     pub fn new(n: f32, k: f32) -> Conductor {
         let (nn, kk) = (f64::from(n), f64::from(k));
@@ -445,48 +507,13 @@ impl Conductor {
             };
             a2.sqrt()
         };
-        let count = Conductor::DEGREE + 1;
-        let angle = |j: usize| PI * (j as f64 + 0.5) / count as f64;
-        let values: Vec<f64> = (0..count)
-            .map(|j| a(0.5 + 0.5 * libm::cos(angle(j))))
-            .collect();
-        let chebyshev = |i: usize| {
-            let sum: f64 = (0..count)
-                .map(|j| values[j] * libm::cos(i as f64 * angle(j)))
-                .sum();
-            sum * if i == 0 { 1.0 } else { 2.0 } / count as f64
-        };
-        // To powers: T_{i+1} = 2 x T_i − T_{i−1}.
-        let mut powers = [0.0f64; Conductor::DEGREE + 1];
-        let (mut before, mut now) = (
-            [0.0f64; Conductor::DEGREE + 1],
-            [0.0f64; Conductor::DEGREE + 1],
-        );
-        now[0] = 1.0;
-        for i in 0..count {
-            let c = chebyshev(i);
-            for (power, term) in powers.iter_mut().zip(now) {
-                *power += c * term;
-            }
-            let mut next = before.map(|x| -x);
-            for j in 1..count {
-                next[j] += if i == 0 { 1.0 } else { 2.0 } * now[j - 1];
-            }
-            if i == 0 {
-                next = [0.0; Conductor::DEGREE + 1];
-                next[1] = 1.0;
-            }
-            (before, now) = (now, next);
-        }
+        let powers = interpolate(|x| a(0.5 + 0.5 * x));
+        let polynomial = |x: f64| powers.iter().rev().fold(0.0, |sum, c| sum * x + c);
         // Where little is reflected, a − c would cancel what the polynomial rounds.
         let fits = k >= n
             && (0..=64).all(|i| {
                 let s2 = f64::from(i) / 64.0;
-                let value = powers
-                    .iter()
-                    .rev()
-                    .fold(0.0, |sum, c| sum * (2.0 * s2 - 1.0) + c);
-                (value - a(s2)).abs() <= 1e-8 * a(s2)
+                (polynomial(2.0 * s2 - 1.0) - a(s2)).abs() <= 3e-8 * a(s2)
             });
         Conductor {
             n,
@@ -496,48 +523,116 @@ impl Conductor {
     }
 }
 
-/// Exact reflectance of a conductor in three colours, see [`crate::f_conductor`].
-pub fn conductor_rgb(isa: Isa, colors: &[Conductor; 3], v_dot_h: &[f32], out: [&mut [f32]; 3]) {
-    for (color, out) in colors.iter().zip(out) {
-        dispatch!(isa, conductor_body(color: &Conductor, v_dot_h: &[f32], out: &mut [f32]))
+/// Powers of the polynomial through a function on [−1, 1] at Chebyshev's nodes.
+fn interpolate(f: impl Fn(f64) -> f64) -> [f64; COEFFICIENTS] {
+    let count = COEFFICIENTS as f64;
+    let angle = |j: usize| PI * (j as f64 + 0.5) / count;
+    let values: [f64; COEFFICIENTS] = std::array::from_fn(|j| f(libm::cos(angle(j))));
+    let mut powers = [0.0; COEFFICIENTS];
+    // T_0 = 1, T_1 = x, T_{i+1} = 2 x T_i − T_{i−1}.
+    let (mut before, mut now) = ([0.0; COEFFICIENTS], [0.0; COEFFICIENTS]);
+    now[0] = 1.0;
+    for i in 0..COEFFICIENTS {
+        let factor = if i == 0 { 1.0 } else { 2.0 };
+        let sum: f64 = (0..COEFFICIENTS)
+            .map(|j| values[j] * libm::cos(i as f64 * angle(j)))
+            .sum();
+        let mut next = before.map(|x: f64| -x);
+        for j in 0..COEFFICIENTS {
+            powers[j] += factor * sum / count * now[j];
+            if j > 0 {
+                next[j] += factor * now[j - 1];
+            }
+        }
+        (before, now) = (now, next);
     }
+    powers
+}
+
+/// Exact reflectance of a conductor in three colours, see [`crate::f_conductor`].
+///
+/// Within 12 ulps, from a polynomial where k ≥ n and one fits; else the formula itself.
+pub fn conductor_rgb(isa: Isa, colors: &[Conductor; 3], v_dot_h: &[f32], out: [&mut [f32]; 3]) {
+    let [red, green, blue] = out;
+    dispatch!(isa, conductor_body(colors: &[Conductor; 3], v_dot_h: &[f32], red: &mut [f32], green: &mut [f32], blue: &mut [f32]))
 }
 
 #[inline(always)]
-fn conductor_body<S: Single>(color: &Conductor, v_dot_h: &[f32], out: &mut [f32]) {
-    let n = out.len().min(v_dot_h.len());
-    let (v_dot_h, out) = (&v_dot_h[..n], &mut out[..n]);
-    let Some(smooth) = color.smooth else {
+fn conductor_body<S: Single>(
+    colors: &[Conductor; 3],
+    v_dot_h: &[f32],
+    red: &mut [f32],
+    green: &mut [f32],
+    blue: &mut [f32],
+) {
+    let n = v_dot_h
+        .len()
+        .min(red.len())
+        .min(green.len())
+        .min(blue.len());
+    let (v_dot_h, red, green, blue) = (
+        &v_dot_h[..n],
+        &mut red[..n],
+        &mut green[..n],
+        &mut blue[..n],
+    );
+    let metals = colors.map(|color| Metal::<S>::new(&color));
+    let [Some(metal_r), Some(metal_g), Some(metal_b)] = metals else {
         for i in 0..n {
-            out[i] = f_conductor(S::load(color.n), S::load(color.k), S::load(v_dot_h[i])).store();
+            let at = |color: &Conductor| {
+                f_conductor(S::load(color.n), S::load(color.k), S::load(v_dot_h[i])).store()
+            };
+            (red[i], green[i], blue[i]) = (at(&colors[0]), at(&colors[1]), at(&colors[2]));
         }
         return;
     };
-    let one = lit::<S>(1.0);
-    let coefficients = smooth.map(S::load);
-    let difference =
-        f64::from(color.k) * f64::from(color.k) - f64::from(color.n) * f64::from(color.n);
-    let difference = lit::<S>(difference);
     for i in 0..n {
-        let c = S::load(v_dot_h[i]).at_least(lit(0.0)).at_most(one);
+        let c = S::load(v_dot_h[i]).at_least(lit(0.0)).at_most(lit(1.0));
+        red[i] = metal_r.reflectance(c).store();
+        green[i] = metal_g.reflectance(c).store();
+        blue[i] = metal_b.reflectance(c).store();
+    }
+}
+
+/// A conductor whose polynomial fits.
+#[derive(Clone, Copy)]
+struct Metal<S> {
+    /// Of a in 2 sin²θ − 1.
+    a: [S; COEFFICIENTS],
+    /// k² − n².
+    difference: S,
+}
+
+impl<S: Single> Metal<S> {
+    #[inline(always)]
+    fn new(color: &Conductor) -> Option<Metal<S>> {
+        let (n, k) = (f64::from(color.n), f64::from(color.k));
+        color.smooth.map(|smooth| Metal {
+            a: smooth.map(S::load),
+            difference: lit(k * k - n * n),
+        })
+    }
+
+    /// F = (R_s + R_s R_p/R_s)/2 as one quotient.
+    #[inline(always)]
+    fn reflectance(&self, c: S) -> S {
+        let one = lit::<S>(1.0);
         let (c2, s2) = (c * c, (one - c) * (one + c));
         let x = lit::<S>(2.0).mul_add(s2, -one);
-        let [c0, c1, c2_, c3, c4, c5, c6, c7] = coefficients;
-        let a = c7
-            .mul_add(x, c6)
-            .mul_add(x, c5)
+        let [c0, c1, c2_, c3, c4, c5] = self.a;
+        let a = c5
             .mul_add(x, c4)
             .mul_add(x, c3)
             .mul_add(x, c2_)
             .mul_add(x, c1)
             .mul_add(x, c0);
-        let b2 = a.mul_add(a, difference + s2);
+        let b2 = a.mul_add(a, self.difference + s2);
         let (minus, plus) = (a - c, a + c);
         let (n_s, d_s) = (minus.mul_add(minus, b2), plus.mul_add(plus, b2));
         let (ac, bc2) = (a * c, b2 * c2);
         let (minus, plus) = (ac - s2, ac + s2);
         let (n_p, d_p) = (minus.mul_add(minus, bc2), plus.mul_add(plus, bc2));
-        out[i] = (lit::<S>(0.5) * n_s * (d_p + n_p) / (d_s * d_p)).store();
+        lit::<S>(0.5) * n_s * (d_p + n_p) / (d_s * d_p)
     }
 }
 

@@ -83,9 +83,8 @@ impl<R: Real> Ggx<R> {
     #[inline(always)]
     pub fn d_between(&self, l: impl Into<Vector<R>>, v: impl Into<Vector<R>>) -> R {
         let (l, v) = (l.into(), v.into());
-        let sum = [0, 1, 2].map(|i| l[i].two_sum(v[i]));
-        let squares = sum.map(|(high, low)| high * high + lit::<R>(2.0) * high * low);
-        self.d_squares(sum.map(|(high, _)| high), squares)
+        let (x, y, z) = (l[0].two_sum(v[0]), l[1].two_sum(v[1]), l[2].two_sum(v[2]));
+        self.d_squares([x.0, y.0, z.0], [square(x), square(y), square(z)])
     }
 
     /// D of a half vector with its squared components.
@@ -283,18 +282,25 @@ fn cosine_direction<R: Real>(u: [R; 2]) -> Vector<R> {
 pub fn v_dot_h_and_rest<R: Real>(l: impl Into<Vector<R>>, v: impl Into<Vector<R>>) -> (R, R) {
     let (l, v) = (l.into(), v.into());
     let one = lit::<R>(1.0);
-    let length2 = |sign: R| {
-        let sum = [0, 1, 2].map(|i| l[i].two_sum(sign * v[i]));
-        let [x, y, z] = sum.map(|(high, low)| high * high + lit::<R>(2.0) * high * low);
-        x + y + z
-    };
-    let c = lit::<R>(0.5) * length2(one).sqrt();
+    let c = lit::<R>(0.5) * sum_squared(l, v).sqrt();
     let rest = if c < lit(0.5) {
         one - c
     } else {
-        lit::<R>(0.25) * length2(-one) / (one + c)
+        lit::<R>(0.25) * sum_squared(l, [-v[0], -v[1], -v[2]]) / (one + c)
     };
     (c, rest)
+}
+
+/// |a + b|², with the rounding errors of the sums.
+#[inline(always)]
+fn sum_squared<R: Real>(a: Vector<R>, b: Vector<R>) -> R {
+    square(a[0].two_sum(b[0])) + square(a[1].two_sum(b[1])) + square(a[2].two_sum(b[2]))
+}
+
+/// The square of an unevaluated sum, without its last term.
+#[inline(always)]
+fn square<R: Real>((high, low): (R, R)) -> R {
+    high * high + lit::<R>(2.0) * high * low
 }
 
 /// The mirror that the facets are made of, in three colours.
