@@ -5,7 +5,8 @@ use std::fmt::Write as _;
 use std::io::{self, IsTerminal as _};
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
-use tutor::{Finding, Lesson, Severity};
+use tutor::check::{DrawCount, Report};
+use tutor::{Finding, Severity};
 
 use crate::cli::{Check, Folders, Format};
 use crate::exit::{Done, Failure};
@@ -18,12 +19,12 @@ pub fn run(folders: &Folders, args: &Check) -> Result<Done, Failure> {
     } else {
         Shelf::of_paths(&args.paths)?
     };
-    let findings = findings(&shelf);
+    let Report { findings, draws } = report(&shelf);
     let wrong = findings
         .iter()
         .any(|finding| finding.severity == Severity::Error);
     match args.format {
-        Format::Human => human(&shelf, &findings)?,
+        Format::Human => human(&shelf, &findings, &draws)?,
         Format::Json => findings.iter().try_for_each(output::json)?,
         Format::Github => findings
             .iter()
@@ -34,17 +35,14 @@ pub fn run(folders: &Folders, args: &Check) -> Result<Done, Failure> {
 }
 
 /// What reading found, then what computing found, in the order of the files.
-fn findings(shelf: &Shelf) -> Vec<Finding> {
+fn report(shelf: &Shelf) -> Report {
     let mut findings: Vec<Finding> = shelf
         .files
         .iter()
         .flat_map(|file| file.findings.clone())
         .collect();
-    let lessons: Vec<Lesson> = shelf
-        .lessons()
-        .map(|lesson| lesson.as_ref().clone())
-        .collect();
-    findings.extend(tutor::check_all(&lessons));
+    let computed = tutor::check::report_all(shelf.lessons().map(AsRef::as_ref));
+    findings.extend(computed.findings);
     let place = |finding: &Finding| {
         shelf
             .files
@@ -53,10 +51,13 @@ fn findings(shelf: &Shelf) -> Vec<Finding> {
     };
     findings.sort_by_key(|finding| (place(finding), finding.start, finding.end));
     findings.dedup();
-    findings
+    Report {
+        findings,
+        draws: computed.draws,
+    }
 }
 
-fn human(shelf: &Shelf, findings: &[Finding]) -> Result<(), Failure> {
+fn human(shelf: &Shelf, findings: &[Finding], draws: &[DrawCount]) -> Result<(), Failure> {
     let coloured =
         io::stdout().is_terminal() && env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
     let renderer = if coloured {
@@ -76,6 +77,12 @@ fn human(shelf: &Shelf, findings: &[Finding]) -> Result<(), Failure> {
         .filter(|finding| finding.severity == Severity::Error)
         .count();
     let warnings = findings.len() - errors;
+    for count in draws {
+        output::line(&format!(
+            "{:<32} {:>5} of {} draws accepted, {} named mistakes, {} others",
+            count.exercise, count.accepted, count.tries, count.named, count.mutants
+        ))?;
+    }
     let files = shelf.files.len();
     output::line(&format!(
         "{} {files} lesson{} checked: {errors} error{}, {warnings} warning{}",

@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::ops::Deref;
+use std::sync::OnceLock;
 
 use formula::{Expr, Library, Values};
 
@@ -583,12 +584,36 @@ pub struct Explain {
     pub model_answer: Text,
     /// What good and wrong answers say.
     pub rubric: Rubric,
-    /// The rubric made ready for judging.
-    pub judge: Judge,
+    /// The rubric made ready for judging, when it is first needed.
+    pub judge: LazyJudge,
     /// Places of the expectations, in the rubric's order.
     pub expectation_places: Vec<Place>,
     /// Places of the misconceptions, in the rubric's order.
     pub misconception_places: Vec<Place>,
     /// Places of the examples, in the rubric's order.
     pub example_places: Vec<Place>,
+}
+
+/// A judge that is made when it is first asked: most starts of the program judge nothing.
+#[derive(Clone, Debug)]
+pub struct LazyJudge {
+    rubric: Rubric,
+    made: OnceLock<Judge>,
+}
+
+impl LazyJudge {
+    /// A judge for a rubric.
+    pub fn new(rubric: &Rubric) -> LazyJudge {
+        LazyJudge {
+            rubric: rubric.clone(),
+            made: OnceLock::new(),
+        }
+    }
+}
+
+impl Deref for LazyJudge {
+    type Target = Judge;
+    fn deref(&self) -> &Judge {
+        self.made.get_or_init(|| Judge::new(&self.rubric))
+    }
 }

@@ -17,7 +17,7 @@ const MUTANTS: usize = 5;
 /// The least relative tolerance.
 const TOLERANCE: f64 = 0.005;
 /// Tries that are enough to know a high rate of acceptance.
-const FEW_TRIES: u32 = 300;
+const FEW_TRIES: u32 = 100;
 /// The share of a variable's values that accepted draws must reach.
 const COVERAGE: f64 = 0.5;
 

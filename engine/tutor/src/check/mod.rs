@@ -29,17 +29,24 @@ pub fn check(lesson: &Lesson) -> Vec<Finding> {
     report(lesson).findings
 }
 
-/// What is wrong with lessons, each alone and all together. What a lesson needs is looked for
-/// only where there are several: a file checked alone cannot know the others.
+/// What is wrong with lessons, each alone and all together.
 pub fn check_all(lessons: &[Lesson]) -> Vec<Finding> {
-    let mut findings: Vec<Finding> = lessons.iter().flat_map(check).collect();
-    findings.extend(check_together(lessons));
-    findings
+    report_all(lessons).findings
 }
 
-/// What is wrong between lessons: names given twice, and what is needed and not there.
-pub fn check_together(lessons: &[Lesson]) -> Vec<Finding> {
-    names::together(lessons)
+/// What is wrong with lessons, each alone and all together, and how their exercises draw. What
+/// a lesson needs is looked for only where there are several: a file checked alone cannot know
+/// the others.
+pub fn report_all<'l>(lessons: impl IntoIterator<Item = &'l Lesson>) -> Report {
+    let lessons: Vec<&Lesson> = lessons.into_iter().collect();
+    let mut all = Report::default();
+    for lesson in &lessons {
+        let report = report(lesson);
+        all.findings.extend(report.findings);
+        all.draws.extend(report.draws);
+    }
+    all.findings.extend(names::together(&lessons));
+    all
 }
 
 /// What is wrong with one lesson, and how its exercises draw.

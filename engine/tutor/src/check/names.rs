@@ -205,7 +205,7 @@ fn rubric_names(checker: &mut Checker<'_>, explain: &crate::lesson::Explain) {
 }
 
 /// What only shows where lessons stand together.
-pub fn together(lessons: &[Lesson]) -> Vec<Finding> {
+pub fn together(lessons: &[&Lesson]) -> Vec<Finding> {
     let mut findings = Vec::new();
     let mut report =
         |lesson: &Lesson, at: &Text, code, message: String, expected: Option<String>| {
@@ -236,7 +236,7 @@ pub fn together(lessons: &[Lesson]) -> Vec<Finding> {
             }
         }
         for entry in &lesson.takes_up {
-            let known: Vec<&str> = lessons.iter().flat_map(slips).collect();
+            let known: Vec<&str> = lessons.iter().flat_map(|it| slips(it)).collect();
             if !known.contains(&entry.slip.text.as_str()) {
                 let near = nearest(&entry.slip, known.iter().copied()).map(str::to_owned);
                 let message = format!("No lesson notes a slip called `{}`.", entry.slip);
@@ -260,7 +260,7 @@ fn slips(lesson: &Lesson) -> Vec<&str> {
     misconceptions.chain(mistakes).collect()
 }
 
-fn leads_to(lessons: &[Lesson], from: &str, to: &str) -> bool {
+fn leads_to(lessons: &[&Lesson], from: &str, to: &str) -> bool {
     let mut open = vec![from];
     let mut seen = BTreeSet::new();
     while let Some(id) = open.pop() {

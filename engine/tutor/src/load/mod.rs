@@ -14,10 +14,10 @@ use toml::de::DeTable;
 pub(crate) use reader::{capitalised, nearest};
 
 use crate::finding::{Finding, Place, Severity};
-use crate::judge::Judge;
 use crate::lesson::{
-    AxisX, AxisY, Claim, Column, Explain, ExplainStage, Fingerprint, FormulaEntry, Lesson, Limit,
-    Mark, Plot, Reteach, Series, SourceSays, Step, TakesUp, Test, Text, Worked, WorkedLine,
+    AxisX, AxisY, Claim, Column, Explain, ExplainStage, Fingerprint, FormulaEntry, LazyJudge,
+    Lesson, Limit, Mark, Plot, Reteach, Series, SourceSays, Step, TakesUp, Test, Text, Worked,
+    WorkedLine,
 };
 use crate::prose::plain_blocks;
 use crate::rubric::Rubric;
@@ -133,13 +133,13 @@ fn read_lesson(table: &Table<'_, '_>) -> Lesson {
         id,
     };
     table.finish();
-    // The judge hears the question as the learner reads it, and costs a little to make: only
-    // now is everything there that the question's templates may speak of.
+    // The judge hears the question as the learner reads it. Only now is everything there that
+    // the question's templates may speak of.
     let mut explain = std::mem::take(&mut lesson.explain);
     for question in &mut explain {
         let asked = lesson.prose(&question.prompt, &Values::new());
         question.rubric.prompt = plain_blocks(&asked);
-        question.judge = Judge::new(&question.rubric);
+        question.judge = LazyJudge::new(&question.rubric);
     }
     lesson.explain = explain;
     lesson
@@ -520,7 +520,7 @@ fn read_explain(table: &Table<'_, '_>) -> Option<Explain> {
         title: table.need_text("title"),
         prompt,
         model_answer: table.need_text("model_answer"),
-        judge: Judge::new(&Rubric::default()),
+        judge: LazyJudge::new(&Rubric::default()),
         rubric,
         expectation_places,
         misconception_places,
