@@ -429,6 +429,8 @@ pub struct Exercise {
     pub keep: Option<u32>,
     /// The first two levels of hint (prose).
     pub hints: Vec<Text>,
+    /// What is worth a remark once the last step is right (prose).
+    pub after: Option<Text>,
     /// Asked again with fresh numbers in the re-test.
     pub retest: bool,
     /// Mistakes worth a sentence.

@@ -166,6 +166,7 @@ fn exercise_texts(checker: &mut Checker<'_>, exercise: &Exercise) {
     for mistake in &exercise.mistakes {
         prose(checker, &mistake.says, &known);
     }
+    optional(checker, exercise.after.as_ref(), &known);
     match &exercise.task {
         Task::Numeric { steps } => {
             for step in steps {

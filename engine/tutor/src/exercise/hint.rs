@@ -100,8 +100,8 @@ fn wrong_line(lesson: &Lesson, exercise: &Exercise, draw: &Draw) -> Vec<Block> {
     blocks
 }
 
-/// What is said after a right answer: why an option is right, what is wrong with a line. Often
-/// nothing.
+/// What is said after a right answer: why an option is right, what is wrong with a line, and
+/// after the last step what the author adds. Often nothing.
 pub fn after_right(
     lesson: &Lesson,
     exercise: &Exercise,
@@ -119,7 +119,18 @@ pub fn after_right(
             .and_then(|line| line.says.as_ref()),
         _ => None,
     };
-    says.map_or_else(Vec::new, |says| lesson.prose(says, &draw.given))
+    let mut blocks = says.map_or_else(Vec::new, |says| lesson.prose(says, &draw.given));
+    let last = draw.steps.last().map(|last| last.name.as_str());
+    if let Some(after) = exercise
+        .after
+        .as_ref()
+        .filter(|_| step.is_none() || step == last)
+    {
+        let mut known = draw.given.clone();
+        known.extend(draw.steps.iter().map(|it| (it.name.clone(), it.truth)));
+        blocks.extend(lesson.prose(after, &known));
+    }
+    blocks
 }
 
 /// What a learner is told beforehand: "within 1 %; keep 4 digits in between".

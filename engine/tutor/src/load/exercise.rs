@@ -49,6 +49,7 @@ pub fn read(table: &Table<'_, '_>, worked: Option<&Worked>) -> Option<Exercise> 
         tolerance,
         keep: table.count("keep", 15),
         hints: table.texts("hint"),
+        after: table.text("after"),
         retest: table.bool("retest").unwrap_or(false),
         mistakes: read_mistakes(table),
         task: task?,
@@ -89,6 +90,7 @@ pub fn read_faded(table: &Table<'_, '_>, lesson: &Text, lines: &[WorkedLine]) ->
         tolerance: read_tolerance(table, true),
         keep: table.count("keep", 15),
         hints: table.texts("hint"),
+        after: None,
         retest: false,
         mistakes: read_mistakes(table),
         task: Task::Numeric {
