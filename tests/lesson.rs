@@ -133,9 +133,9 @@ impl Learner {
         match named {
             Some(mistake) if !self.erred => {
                 self.erred = true;
-                format!("{:.8e}", mistake.value)
+                mistake.value.to_string()
             }
-            _ => format!("{:.8e}", step.truth),
+            _ => step.truth.to_string(),
         }
     }
 

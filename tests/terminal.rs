@@ -117,7 +117,7 @@ fn no_color_leaves_no_colour() {
 #[test]
 fn a_picture_appears_and_the_learner_moves_on() {
     let home = tempfile::tempdir().expect("a folder");
-    let mut terminal = learn(home.path(), (200, 60));
+    let mut terminal = learn(home.path(), (200, 100));
     terminal.wait_for("Enter on");
     for _ in 0..40 {
         if terminal.text().contains("log2 of the ratio") {
@@ -133,7 +133,7 @@ fn a_picture_appears_and_the_learner_moves_on() {
     terminal.wait_until("the picture to go", |screen| {
         !screen.contains("log2 of the ratio")
     });
-    terminal.send("q");
+    terminal.send("\u{3}");
     assert_eq!(terminal.wait(), 0);
 }
 

@@ -192,7 +192,8 @@ pub enum Backend {
 #[derive(Debug, Args)]
 pub struct Render {
     /// Ids or numbers of lessons (else all)
-    pub lessons: Vec<String>,
+    #[arg(value_name = "LESSON")]
+    pub names: Vec<String>,
     /// Folder to write to (else renders/gallery where it exists, else ./lobe-pictures)
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
@@ -207,4 +208,14 @@ pub struct Render {
     /// Print one JSON object a picture
     #[arg(long)]
     pub json: bool,
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory as _;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        super::Cli::command().debug_assert();
+    }
 }

@@ -477,7 +477,7 @@ mod tests {
             Piece::new("big rim", Role::Strong),
             Piece::new(", yes", Role::Text),
         ];
-        let lines = wrap(&pieces, 8);
+        let lines = wrap(&pieces, 7);
         assert_eq!(
             lines,
             [

@@ -52,10 +52,10 @@ struct Visibility {
 
 pub fn run(folders: &Folders, args: &Render) -> Result<Done, Failure> {
     let shelf = super::shelf(folders)?;
-    let lessons: Vec<&Arc<Lesson>> = if args.lessons.is_empty() {
+    let lessons: Vec<&Arc<Lesson>> = if args.names.is_empty() {
         shelf.lessons().collect()
     } else {
-        args.lessons
+        args.names
             .iter()
             .map(|wanted| shelf.find(wanted))
             .collect::<Result<_, _>>()?

@@ -57,8 +57,10 @@ pub enum Action {
     Quit,
     /// Ctrl-C: out of the program, from wherever.
     QuitAll,
-    /// Draw again: the size changed.
+    /// The size changed.
     Redraw,
+    /// Draw everything again, for something else wrote over it.
+    Repaint,
     /// Nothing means anything here.
     Nothing,
 }
@@ -79,7 +81,7 @@ fn of_key(key: KeyEvent, focus: Focus) -> Action {
         match key.code {
             KeyCode::Char('c') => return Action::QuitAll,
             KeyCode::Char('t') => return Action::Hint,
-            KeyCode::Char('l') => return Action::Redraw,
+            KeyCode::Char('l') => return Action::Repaint,
             _ => {}
         }
     }

@@ -158,7 +158,7 @@ impl LessonScreen {
                     self.typed = Some(Instant::now());
                 }
             }
-            Action::Help | Action::Redraw | Action::Nothing => {}
+            Action::Help | Action::Redraw | Action::Repaint | Action::Nothing => {}
         }
         Flow::Stay
     }

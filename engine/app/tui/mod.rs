@@ -12,10 +12,12 @@ pub mod picker;
 pub mod pictures;
 pub mod probe;
 
+use std::io::stdout;
 use std::sync::Arc;
 use std::time::Duration;
 
-use crossterm::event;
+use crossterm::terminal::{Clear, ClearType};
+use crossterm::{event, execute};
 use ratatui::Frame;
 use tutor::Lesson;
 
@@ -107,8 +109,11 @@ impl App<'_> {
                 // All keys that wait are one step: a held key never runs ahead of the screen.
                 loop {
                     let action = keys::action(event::read().map_err(broken)?, self.focus());
-                    if action == Action::Redraw {
-                        terminal.clear().map_err(broken)?;
+                    if action == Action::Repaint {
+                        // Not `Terminal::clear`: that asks the terminal where its cursor is, and
+                        // gives up where no answer comes.
+                        execute!(stdout(), Clear(ClearType::All)).map_err(broken)?;
+                        terminal.swap_buffers();
                     }
                     redraw |= action != Action::Nothing;
                     if self.act(action)? == Flow::Leave {
