@@ -20,10 +20,11 @@ use std::f64::consts::{FRAC_1_PI, PI};
 
 /// A set of instructions that this machine has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Isa(Level);
+pub struct Isa(pub(crate) Level);
 
+/// An [`Isa`] above the baseline is made only where its features were detected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Level {
+pub(crate) enum Level {
     Baseline,
     #[cfg(target_arch = "x86_64")]
     Avx2,
@@ -168,6 +169,8 @@ macro_rules! dispatch {
         }
     }};
 }
+
+pub(crate) use dispatch;
 
 /// Arguments of [`specular`]: cosines, widths and colours.
 #[derive(Debug, Clone, Copy)]
@@ -723,7 +726,7 @@ fn sample_body<S: Single>(v: Vec3, alpha: f32, u: [&[f32]; 2], out: Samples) {
 
 /// sin and cos of 2π u for u in [0, 1], by polynomials on an eighth of a turn.
 #[inline(always)]
-fn sin_cos_turn<S: Single>(u: S) -> (S, S) {
+pub(crate) fn sin_cos_turn<S: Single>(u: S) -> (S, S) {
     let one = lit::<S>(1.0);
     // Quarter turns, rounded by adding and taking away a large number.
     let quarters = lit::<S>(4.0) * u;

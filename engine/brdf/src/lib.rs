@@ -25,6 +25,7 @@ pub mod real;
 pub mod smith;
 pub mod term;
 pub mod vector;
+pub mod walk;
 pub mod whole;
 
 pub use d::*;

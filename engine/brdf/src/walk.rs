@@ -1,0 +1,326 @@
+//! Random walks on the microsurface: what the closed forms approximate.
+//!
+//! A ray that enters from `v` moves between the facets of Smith's surface until it leaves.
+//! Smith's surface has no memory, so that one number is enough for where the ray is: the
+//! optical depth x = −ln C₁(h) under the top, C₁ the share of the surface below the height h.
+//! With e drawn from the exponential distribution, a ray going up rises by e/Λ(w) and is out
+//! where x ≤ 0; a ray going down sinks by e/(1 + Λ(−w)). No height distribution is needed: it
+//! cancels. At each hit the facet's normal is drawn from those visible against the ray.
+//!
+//! Heitz, Hanika, d'Eon and Dachsbacher 2016; Hammon 2017, appendix, whose slides draw the
+//! normal from D alone: that is not the distribution of what a ray meets.
+
+use crate::batch::{Isa, Level, dispatch, sin_cos_turn};
+use crate::ggx::{Ggx, Sampler};
+use crate::real::{Fused, Real, Single, lit};
+use crate::vector::{Vector, add, dot, normalize, reflect, scale};
+use glam::Vec3;
+use std::f64::consts::PI;
+
+/// What the facets are made of.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Facets<R> {
+    /// Perfect mirrors: all light leaves again.
+    Mirror,
+    /// Lambertian, with their own albedo.
+    Diffuse {
+        /// Share that is not absorbed at a hit.
+        albedo: R,
+    },
+    /// A smooth coat over a diffuse base: mirrored with Schlick's reflectance, else let in,
+    /// and out again with density ∝ cos θ (1 − (1 − cos θ)⁵) (Hammon 2017).
+    Coated {
+        /// Reflectance of the coat at normal incidence.
+        f0: R,
+        /// Albedo of the base.
+        albedo: R,
+    },
+}
+
+/// A ray that has left the surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Exit<R> {
+    /// Where to.
+    pub l: Vector<R>,
+    /// What is left of its energy.
+    pub weight: R,
+    /// Hits on the way, at least 1.
+    pub bounces: u32,
+    /// Whether all of them were mirrors.
+    pub specular: bool,
+}
+
+/// Walks longer than this are given up; for α ≤ 1 none is seen.
+const MOST_BOUNCES: u32 = 10_000;
+
+/// One walk from a view above the horizon; `next` gives numbers in (0, 1).
+///
+/// `None` where it was given up, which no α in [0, 1] needs.
+pub fn walk<R: Real>(
+    ggx: Ggx<R>,
+    facets: Facets<R>,
+    v: impl Into<Vector<R>>,
+    mut next: impl FnMut() -> R,
+) -> Option<Exit<R>> {
+    let (zero, one) = (lit::<R>(0.0), lit::<R>(1.0));
+    // The direction the ray comes from, seen from its next hit.
+    let mut from = v.into();
+    let (mut depth, mut weight, mut specular) = (zero, one, true);
+    for bounces in 0..MOST_BOUNCES {
+        // The direction of travel is −from.
+        let z = -from[2];
+        let e = -next().ln();
+        let length = ggx.projected(from);
+        if z > zero {
+            let (x, y) = (ggx.alpha_x * from[0], ggx.alpha_y * from[1]);
+            // e/Λ, Λ = (length − z)/(2 z) without the difference.
+            depth = depth - e * (lit::<R>(2.0) * z) * ((length + z) / (x * x + y * y));
+            if depth <= zero || depth.is_nan() {
+                return Some(Exit {
+                    l: scale(from, -one),
+                    weight,
+                    bounces,
+                    specular,
+                });
+            }
+        } else {
+            depth = depth + e * (lit::<R>(-2.0) * z) / (length - z);
+        }
+        let m = normal(ggx, from, [next(), next()]);
+        let mirrored = match facets {
+            Facets::Mirror => true,
+            Facets::Diffuse { albedo } => {
+                weight = weight * albedo;
+                false
+            }
+            Facets::Coated { f0, albedo } => {
+                let mirrored = next() < crate::f_schlick(f0, dot(from, m));
+                if !mirrored {
+                    weight = weight * albedo;
+                }
+                mirrored
+            }
+        };
+        let l = if mirrored {
+            reflect(from, m)
+        } else {
+            specular = false;
+            loop {
+                let l = cosine_around(m, [next(), next()]);
+                // 20 of 21 are kept.
+                let rest = (one - dot(l, m)).pow5();
+                if !matches!(facets, Facets::Coated { .. }) || next() >= rest {
+                    break l;
+                }
+            }
+        };
+        from = scale(l, -one);
+    }
+    None
+}
+
+/// A normal visible from `v`, which may lie below the horizon (Dupuy and Benyoub 2023).
+fn normal<R: Real>(ggx: Ggx<R>, v: Vector<R>, u: [R; 2]) -> Vector<R> {
+    let l = ggx.sample(v, u, Sampler::SphericalCap).l;
+    normalize(add(l, v))
+}
+
+/// A direction with density cos/π around `m`: a point on the sphere that touches it.
+fn cosine_around<R: Real>(m: Vector<R>, u: [R; 2]) -> Vector<R> {
+    let z = lit::<R>(1.0) - lit::<R>(2.0) * u[0];
+    let sin = (lit::<R>(2.0) * (u[0] * (lit::<R>(1.0) - u[0])).at_least(lit(0.0)).sqrt())
+        .at_least(lit(0.0));
+    let phi = u[1] * lit(2.0 * PI);
+    normalize(add(m, [sin * phi.cos(), sin * phi.sin(), z]))
+}
+
+/// What [`walk_mirrors`] fills in.
+#[derive(Debug)]
+pub struct Walks<'a> {
+    /// Where each ray left to, along the tangent, the bitangent and the normal.
+    pub l: [&'a mut [f32]; 3],
+    /// How often it was mirrored.
+    pub bounces: &'a mut [u32],
+}
+
+/// Walks between perfect mirrors from one view, one for each element of the slices.
+///
+/// The same seed gives the same walks, up to the rounding of an instruction set. α is the same
+/// in all directions and in [1e-4, 1].
+pub fn walk_mirrors(isa: Isa, v: Vec3, alpha: f32, seed: u64, out: Walks) {
+    dispatch!(isa, walks_body(v: Vec3, alpha: f32, seed: u64, out: Walks))
+}
+
+/// Walks that are under way at the same time; those that have left are closed up.
+const BLOCK: usize = 512;
+
+struct Block {
+    /// The direction each ray comes from.
+    from: [[f32; BLOCK]; 3],
+    depth: [f32; BLOCK],
+    /// Set where the ray has left.
+    out: [f32; BLOCK],
+    /// The walk's own random bits, and its place in the output.
+    key: [u32; BLOCK],
+    index: [u32; BLOCK],
+}
+
+#[inline(always)]
+fn walks_body<S: Single>(v: Vec3, alpha: f32, seed: u64, out: Walks) {
+    let [x, y, z] = out.l;
+    let n = x.len().min(y.len()).min(z.len()).min(out.bounces.len());
+    let (x, y, z, bounces) = (&mut x[..n], &mut y[..n], &mut z[..n], &mut out.bounces[..n]);
+    let mut block = Block {
+        from: [[0.0; BLOCK]; 3],
+        depth: [0.0; BLOCK],
+        out: [0.0; BLOCK],
+        key: [0; BLOCK],
+        index: [0; BLOCK],
+    };
+    let mut first = 0;
+    while first < n {
+        let mut active = BLOCK.min(n - first);
+        for i in 0..active {
+            let index = (first + i) as u32;
+            block.from[0][i] = v.x;
+            block.from[1][i] = v.y;
+            block.from[2][i] = v.z;
+            block.depth[i] = 0.0;
+            block.index[i] = index;
+            block.key[i] = mix(index ^ (seed as u32)).wrapping_add((seed >> 32) as u32);
+        }
+        first += active;
+        for bounce in 0..MOST_BOUNCES {
+            if active == 0 {
+                break;
+            }
+            step::<S>(&mut block, active, alpha, bounce);
+            let mut kept = 0;
+            for i in 0..active {
+                let to = block.index[i] as usize;
+                if block.out[i] != 0.0 {
+                    x[to] = -block.from[0][i];
+                    y[to] = -block.from[1][i];
+                    z[to] = -block.from[2][i];
+                    bounces[to] = bounce;
+                } else {
+                    for from in &mut block.from {
+                        from[kept] = from[i];
+                    }
+                    block.depth[kept] = block.depth[i];
+                    block.index[kept] = block.index[i];
+                    block.key[kept] = block.key[i];
+                    kept += 1;
+                }
+            }
+            active = kept;
+        }
+    }
+}
+
+/// One flight and, where it ends inside, one mirror, for all rays of a block.
+#[inline(always)]
+#[allow(clippy::needless_range_loop)]
+fn step<S: Single>(block: &mut Block, active: usize, alpha: f32, bounce: u32) {
+    let active = active.min(BLOCK);
+    let (one, two) = (lit::<S>(1.0), lit::<S>(2.0));
+    let alpha = S::load(alpha);
+    let a2 = alpha * alpha;
+    let salt = [0, 1, 2].map(|i| {
+        mix(bounce
+            .wrapping_mul(3)
+            .wrapping_add(i)
+            .wrapping_add(0x9e37_79b9))
+    });
+    for i in 0..active {
+        let v = [
+            S::load(block.from[0][i]),
+            S::load(block.from[1][i]),
+            S::load(block.from[2][i]),
+        ];
+        let unit = |salt: u32| {
+            S::load(((mix(block.key[i] ^ salt) >> 8) as f32 + 0.5) * (1.0 / 16_777_216.0))
+        };
+        let (u0, u1, u2) = (unit(salt[0]), unit(salt[1]), unit(salt[2]));
+        let across = a2 * v[0].mul_add(v[0], v[1] * v[1]);
+        let length = v[2].mul_add(v[2], across).sqrt();
+        let up = v[2] < lit(0.0);
+        let height = v[2].abs();
+        // Up: −2 z e (length + z)/across. Down: 2 z e/(length + z).
+        let sum = length + height;
+        let (top, bottom) = if up { (-sum, across) } else { (one, sum) };
+        let e = -ln_unit(u0);
+        let depth = S::load(block.depth[i]) + two * height * e * top / bottom;
+        // Also out where it rises straight up and across is 0: −∞.
+        let left = up && depth <= lit(0.0);
+        // A visible normal, by the cap of the stretched sphere.
+        let invert = one / length;
+        let std = [alpha * v[0] * invert, alpha * v[1] * invert, v[2] * invert];
+        let cap = (one - u1).mul_add(one + std[2], -std[2]);
+        let sin = ((one - cap) * (one + cap)).at_least(lit(0.0)).sqrt();
+        let (sin_phi, cos_phi) = sin_cos_turn(u2);
+        let m = [
+            alpha * sin.mul_add(cos_phi, std[0]),
+            alpha * sin.mul_add(sin_phi, std[1]),
+            std[2] + cap,
+        ];
+        let m2 = m[0].mul_add(m[0], m[1].mul_add(m[1], m[2] * m[2]));
+        let vm = v[0].mul_add(m[0], v[1].mul_add(m[1], v[2] * m[2]));
+        let factor = two * vm / m2;
+        // The next direction it comes from is that of v mirrored, turned around.
+        let next = |axis: usize| {
+            let from = v[axis] - factor * m[axis];
+            if left { v[axis] } else { from }
+        };
+        let (x, y, z) = (next(0), next(1), next(2));
+        block.from[0][i] = x.store();
+        block.from[1][i] = y.store();
+        block.from[2][i] = z.store();
+        block.depth[i] = depth.store();
+        block.out[i] = if left { 1.0 } else { 0.0 };
+    }
+}
+
+/// Bits that look random (Wellons' low-bias hash).
+#[inline(always)]
+fn mix(mut x: u32) -> u32 {
+    x ^= x >> 16;
+    x = x.wrapping_mul(0x7feb_352d);
+    x ^= x >> 15;
+    x = x.wrapping_mul(0x846c_a68b);
+    x ^ (x >> 16)
+}
+
+/// ln of a normal number, without branches: for loops that are to be vectorised.
+#[inline(always)]
+fn ln_unit<S: Single>(x: S) -> S {
+    // x = m 2^k with m in [sqrt(½), sqrt(2)).
+    let bits = x.store().to_bits();
+    let shifted = bits.wrapping_sub(0x3f35_04f3);
+    let k = S::load((shifted as i32 >> 23) as f32);
+    let m = S::load(f32::from_bits((shifted & 0x007f_ffff) + 0x3f35_04f3));
+    let r = m - lit(1.0);
+    let r2 = r * r;
+    // Minimax of (ln(1 + r) − r + r²/2)/r³ on that range.
+    let coefficients = [
+        7.037_683_6e-2,
+        -0.115_146_1,
+        0.116_769_99,
+        -0.124_201_41,
+        0.142_493_23,
+        -0.166_680_58,
+        0.200_007_15,
+        -0.249_999_94,
+        0.333_333_31,
+    ];
+    let mut p = lit::<S>(coefficients[0]);
+    for &c in &coefficients[1..] {
+        p = p.mul_add(r, lit(c));
+    }
+    let small = (r * r2).mul_add(p, lit::<S>(-0.5) * r2);
+    // ln 2 in two parts, the first exact times k.
+    k.mul_add(
+        lit(0.693_359_375),
+        r + k.mul_add(lit(-2.121_944_4e-4), small),
+    )
+}
