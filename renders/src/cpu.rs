@@ -32,6 +32,7 @@ enum Second {
 
 impl Cpu {
     pub fn new(fingerprint: &Fingerprint<'_>, plan: &Plan) -> Result<Self, Error> {
+        fingerprint.scene.check()?;
         let compile = |which, expr| {
             program(fingerprint, expr).map_err(|error| Error::Formula { which, error })
         };

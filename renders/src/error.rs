@@ -16,6 +16,8 @@ pub enum Error {
         /// What is wrong with it, and where.
         error: formula::Error,
     },
+    /// The scene has a value that no scene can have.
+    Scene(String),
     /// The size asked for is zero or larger than [`crate::MAX_SIZE`].
     Size(u32),
     /// The plot has nothing to draw, or no room to draw it.
@@ -38,6 +40,7 @@ impl fmt::Display for Error {
             Self::Formula { which, error } => {
                 write!(f, "the {which} formula cannot be drawn: {error}")
             }
+            Self::Scene(why) => write!(f, "the scene cannot be drawn: {why}"),
             Self::Size(size) => {
                 write!(
                     f,

@@ -281,3 +281,68 @@ fn shader(fingerprint: &Fingerprint<'_>, plan: &Plan) -> Result<String, Error> {
     );
     Ok(source)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Scene;
+    use wgpu::naga;
+
+    /// The whole shader of a fingerprint passes naga's validation: no adapter is needed for that.
+    #[track_caller]
+    fn check_valid(right: &str, wrong: &str, skip: bool) {
+        let library = formula::Library::new();
+        let parse = |text| formula::parse(text).unwrap_or_else(|e| panic!("{text}: {e}"));
+        let (right, wrong) = (parse(right), parse(wrong));
+        let others = [("albedo", 0.5), ("sigma", 0.3), ("eta", 1.5)]
+            .map(|(name, value)| (name.to_owned(), value));
+        let fingerprint = Fingerprint {
+            lesson: "test",
+            id: "test",
+            title: String::new(),
+            caption: String::new(),
+            library: &library,
+            right: &right,
+            wrong: &wrong,
+            scene: Scene {
+                roughness: 0.4,
+                f0: 0.04,
+                light_deg: 60.0,
+                others: others.into(),
+            },
+        };
+        let source =
+            shader(&fingerprint, &Plan::of(&fingerprint, skip)).unwrap_or_else(|e| panic!("{e}"));
+        let module = naga::front::wgsl::parse_str(&source)
+            .unwrap_or_else(|e| panic!("{}", e.emit_to_string(&source)));
+        let mut validator = naga::valid::Validator::new(
+            naga::valid::ValidationFlags::all(),
+            naga::valid::Capabilities::empty(),
+        );
+        validator
+            .validate(&module)
+            .unwrap_or_else(|e| panic!("{}", e.emit_to_string(&source)));
+    }
+
+    #[test]
+    fn shaders_are_valid_without_an_adapter() {
+        let specular = "d_ggx() * v_ggx() * f_schlick() * n_dot_l";
+        for skip in [true, false] {
+            check_valid(
+                specular,
+                &format!("{specular} / (4 * n_dot_l * n_dot_v)"),
+                skip,
+            );
+            check_valid(
+                specular,
+                "d_ggx(alpha = roughness) * g2_ggx() * f_dielectric() * n_dot_l",
+                skip,
+            );
+            check_valid(
+                specular,
+                "(diffuse_oren_nayar() + d_beckmann() * v_ggx()) * n_dot_l",
+                skip,
+            );
+        }
+    }
+}

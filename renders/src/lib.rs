@@ -15,6 +15,7 @@ mod canvas;
 mod chart;
 mod colour;
 mod contour;
+mod convergence;
 mod cpu;
 mod error;
 mod exr;
@@ -33,10 +34,11 @@ mod visibility;
 
 pub use canvas::png;
 pub use chart::{PlotSpec, plot_png, plot_svg};
+pub use convergence::{Total, convergence};
 pub use error::Error;
 pub use gpu::gpu_adapter;
 pub use map::{MapSpec, Scale, map_png};
-pub use profile::{ProfilePoint, profile};
+pub use profile::{ProfilePoint, point_at, profile};
 pub use sample::RADIUS_SHARE;
 pub use scene::Scene;
 pub use visibility::Visibility;
@@ -271,6 +273,7 @@ fn draw_panels(
     if !(MIN_SIZE..=MAX_SIZE).contains(&options.size) {
         return Err(Error::Size(options.size));
     }
+    fingerprint.scene.check()?;
     let panel = Panel {
         size: options.size as usize,
         geometry: fingerprint.scene.geometry(),

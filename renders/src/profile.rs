@@ -33,6 +33,23 @@ pub fn profile(fingerprint: &Fingerprint<'_>, samples: usize) -> Vec<ProfilePoin
     }
 }
 
+/// The point of the sphere seen at (`x`, `y`), in radii from the disc's centre, x towards the
+/// light, y upwards; `None` where nothing is lit or seen, or a formula does not fit the scene.
+pub fn point_at(fingerprint: &Fingerprint<'_>, x: f64, y: f64) -> Option<ProfilePoint> {
+    let geometry = fingerprint.scene.geometry();
+    let point = geometry.lit(x, y)?;
+    let cpu = Cpu::new(fingerprint, &Plan::of(fingerprint, true)).ok()?;
+    let values = cpu.evaluate(&Samples::of(&geometry, [point]));
+    Some(ProfilePoint {
+        position: x,
+        n_dot_l: point.n_dot_l,
+        n_dot_v: point.n_dot_v,
+        right: *values.right.first()?,
+        wrong: *values.wrong.first()?,
+        ratio: *values.ratio.first()?,
+    })
+}
+
 fn along(fingerprint: &Fingerprint<'_>, cpu: &Cpu, samples: usize) -> Vec<ProfilePoint> {
     let (from, to) = fingerprint.scene.geometry().lit_equator();
     let angles: Vec<f64> = (0..samples)

@@ -6,7 +6,7 @@ use crate::scene::{Geometry, Point};
 /// Radius of the sphere, as a share of the panel's width.
 pub const RADIUS_SHARE: f64 = 0.47;
 
-/// Points a side in a pixel that an edge crosses.
+/// Lines in a pixel that an edge crosses, and points on each.
 const EDGE_GRID: usize = 4;
 
 /// A square panel of `size` pixels with the sphere in its middle.
@@ -189,9 +189,39 @@ impl Panel {
         }
     }
 
+    /// Samples one stretch of a line whose half-width on the sphere is `rho`; a stretch as long as
+    /// `whole` would stand for the whole pixel.
+    fn stretch(
+        &self,
+        samples: &mut Samples,
+        (from, to): (f64, f64),
+        rho: f64,
+        whole: f64,
+        pixel: u32,
+    ) {
+        let angle = |x: f64| (x / rho).clamp(-1.0, 1.0).asin();
+        let (start, end) = (angle(from), angle(to));
+        let points: [Point; EDGE_GRID] = std::array::from_fn(|j| {
+            let t = start + (end - start) * (j as f64 + 0.5) / EDGE_GRID as f64;
+            self.geometry.at(rho * t.sin(), rho * t.cos())
+        });
+        let weight: f64 = points.iter().map(|point| point.n_dot_v).sum();
+        for point in points {
+            if point.n_dot_l > 0.0 && point.n_dot_v > 0.0 {
+                let share = (to - from) / whole * point.n_dot_v / weight;
+                samples.push(point, pixel, share as f32);
+            }
+        }
+    }
+
+    /// A pixel that an edge of the lens crosses: the mean over its lit part.
+    ///
+    /// On each of a few lines the lit stretch within the pixel is sampled evenly in the angle t
+    /// of x = ρ sin t. There dx = N·V dt, so that what grows as 1/(N·V) towards the rim is
+    /// averaged without error: points spread evenly in x would hit or miss the growth by chance.
     fn edge(&self, samples: &mut Samples, column: usize, row: usize, pixel: u32) {
         let before = samples.len();
-        let share = 1.0 / (EDGE_GRID * EDGE_GRID) as f32;
+        let (left, right) = (self.unit(column as f64), self.unit(column as f64 + 1.0));
         let offset = |i: usize| (i as f64 + 0.5) / EDGE_GRID as f64;
         for i in 0..EDGE_GRID {
             // The lower half is walked upwards, so that a pixel and its mirror image sum the same
@@ -201,12 +231,18 @@ impl Panel {
             } else {
                 EDGE_GRID - 1 - i
             };
-            for j in 0..EDGE_GRID {
-                let x = self.unit(column as f64 + offset(j));
-                let y = self.unit(row as f64 + offset(i));
-                if let Some(point) = self.geometry.lit(x, y) {
-                    samples.push(point, pixel, share);
-                }
+            let y = self.unit(row as f64 + offset(i));
+            let (terminator, rim) = self.geometry.lit_stretch(y);
+            let (from, to) = (terminator.max(left), rim.min(right));
+            // Also false where the line misses the sphere and both ends are NaN.
+            if from < to {
+                self.stretch(
+                    samples,
+                    (from, to),
+                    rim,
+                    (right - left) * EDGE_GRID as f64,
+                    pixel,
+                );
             }
         }
         if samples.len() > before {

@@ -3,6 +3,7 @@
 //! The eye looks along −z, the light stands in the xz-plane, so the picture mirrors at its
 //! horizontal middle and the equator runs from the terminator over the highlight to the lit rim.
 
+use crate::error::Error;
 use formula::Values;
 
 /// What the material and the light are.
@@ -42,6 +43,26 @@ pub(crate) struct Geometry {
 }
 
 impl Scene {
+    /// What is wrong with the scene, in one sentence.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        if !(0.0..180.0).contains(&self.light_deg) {
+            let light = self.light_deg;
+            return Err(Error::Scene(format!(
+                "light_deg is {light}, and must be at least 0 and below 180"
+            )));
+        }
+        match self
+            .constants()
+            .into_iter()
+            .find(|(_, value)| !value.is_finite())
+        {
+            Some((name, value)) => Err(Error::Scene(format!(
+                "{name} is {value}, which is not a number to shade with"
+            ))),
+            None => Ok(()),
+        }
+    }
+
     /// The constant inputs of both formulas: name and value.
     pub(crate) fn constants(&self) -> Vec<(String, f64)> {
         let light = self.light_deg.to_radians();
@@ -103,8 +124,9 @@ impl Geometry {
         self.at(psi.sin(), psi.cos())
     }
 
+    /// The point with these coordinates across and towards the eye.
     #[inline]
-    fn at(&self, x: f64, z: f64) -> Point {
+    pub fn at(&self, x: f64, z: f64) -> Point {
         Point {
             n_dot_l: x * self.sin_light + z * self.cos_light,
             n_dot_v: z,

@@ -1,7 +1,10 @@
 //! The pictures against closed forms: what a bug does at the landmarks of the sphere.
 
 use formula::{Expr, Library};
-use renders::{Backend, Error, Fingerprint, Options, RADIUS_SHARE, Scene, profile, raw, render};
+use renders::{
+    Backend, Error, Fingerprint, Options, RADIUS_SHARE, Scene, convergence, point_at, profile, raw,
+    render,
+};
 use std::sync::atomic::AtomicBool;
 
 const CORRECT: &str = "d_ggx() * v_ggx() * f_schlick() * n_dot_l";
@@ -311,6 +314,45 @@ fn the_compact_picture_is_the_panels_alone() {
 }
 
 #[test]
+fn the_total_of_a_divergent_bug_grows_with_the_picture() {
+    let sizes = [64, 256, 1024];
+    let totals = |light_deg| {
+        let bug = bug(CORRECT, DIVIDED_TWICE, 0.7, 0.95, light_deg);
+        convergence(&bug.fingerprint(), &sizes).expect("totals")
+    };
+    let headlight = totals(0.0);
+    close(
+        headlight[0].right,
+        headlight[2].right,
+        2e-3,
+        "the right total settles",
+    );
+    // ∫ dA/(N·V)² grows by the same amount with every doubling of the size.
+    let steps = [1, 2].map(|i| headlight[i].wrong - headlight[i - 1].wrong);
+    close(
+        steps[1],
+        steps[0],
+        0.1,
+        "the wrong total grows like a logarithm",
+    );
+    assert!(
+        headlight[2].wrong > 1.2 * headlight[0].wrong,
+        "{headlight:?}"
+    );
+    let sixty = totals(60.0);
+    close(sixty[1].wrong, sixty[2].wrong, 0.02, "elsewhere it settles");
+}
+
+#[test]
+fn a_point_of_the_sphere_can_be_asked_for() {
+    let bug = bug(CORRECT, DIVIDED_TWICE, 0.7, 0.95, 60.0);
+    let point = point_at(&bug.fingerprint(), 0.5, 0.0).expect("the highlight is lit");
+    close(point.ratio, 1.0 / 3.0, 1e-12, "ratio at the highlight");
+    assert_eq!(point_at(&bug.fingerprint(), -0.8, 0.0), None);
+    assert_eq!(point_at(&bug.fingerprint(), 1.0, 1.0), None);
+}
+
+#[test]
 fn what_cannot_be_drawn_is_said_in_one_line() {
     let cancelled = AtomicBool::new(true);
     let good = bug(CORRECT, CORRECT, 0.4, 0.04, 60.0);
@@ -320,6 +362,17 @@ fn what_cannot_be_drawn_is_said_in_one_line() {
     );
     let huge = render(&good.fingerprint(), &cpu(100_000), &AtomicBool::new(false)).unwrap_err();
     assert_eq!(huge, Error::Size(100_000));
+    for (roughness, light_deg) in [
+        (0.4, 180.0),
+        (0.4, -1.0),
+        (f64::NAN, 60.0),
+        (0.4, f64::INFINITY),
+    ] {
+        let bad = bug(CORRECT, CORRECT, roughness, 0.04, light_deg);
+        let error = render(&bad.fingerprint(), &cpu(64), &AtomicBool::new(false)).unwrap_err();
+        assert!(matches!(error, Error::Scene(_)), "{error}");
+        assert!(profile(&bad.fingerprint(), 9).is_empty());
+    }
     let unknown = bug(CORRECT, "d_ggx() * colour", 0.4, 0.04, 60.0);
     let error = render(&unknown.fingerprint(), &cpu(64), &AtomicBool::new(false)).unwrap_err();
     assert!(error.to_string().contains("wrong formula"), "{error}");
