@@ -3,15 +3,22 @@
 //! Deterministic, offline, linear in the length of the answer. It hears propositions (who,
 //! what, in which direction), not keywords; where it cannot tell it says so, per criterion.
 
+mod arithmetic;
+mod attach;
+mod claim;
+mod denial;
 pub mod evaluate;
 mod examples;
 mod grammar;
 mod lexicon;
+mod matching;
 mod parse;
 mod phrase;
+mod refer;
 mod spelling;
 mod symbols;
 mod text;
+mod values;
 
 use std::collections::BTreeSet;
 

@@ -457,6 +457,27 @@ impl Reader<'_> {
         self.push(text, Kind::Word, from);
     }
 
+    /// `\frac{a}{b}`, and `\frac12`: a digit or a letter needs no braces.
+    fn fraction(&mut self) {
+        while self.peek(0) == Some(' ') {
+            self.at += 1;
+        }
+        let from = self.at;
+        match self.peek(0) {
+            Some(c) if c.is_ascii_alphanumeric() => {
+                self.at += 1;
+                let kind = if c.is_ascii_digit() {
+                    Kind::Value
+                } else {
+                    Kind::Word
+                };
+                self.push(c.to_ascii_lowercase(), kind, from);
+                self.push("/", Kind::Op, from);
+            }
+            _ => self.next_brace = Some(Brace::Numerator),
+        }
+    }
+
     fn latex(&mut self) {
         let from = self.at;
         self.at += 1;
@@ -467,7 +488,7 @@ impl Reader<'_> {
         }
         match name.as_str() {
             "" => self.at += usize::from(self.at < self.chars.len()),
-            "frac" | "tfrac" | "dfrac" | "nicefrac" => self.next_brace = Some(Brace::Numerator),
+            "frac" | "tfrac" | "dfrac" | "nicefrac" => self.fraction(),
             "text" | "mathrm" | "mathbf" | "mathit" | "vec" | "hat" | "operatorname" | "textbf"
             | "emph" | "textit" => {
                 self.next_brace = Some(Brace::Silent);

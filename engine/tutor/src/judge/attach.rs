@@ -1,0 +1,341 @@
+//! What each statement is about: the word it stands with, else the last one spoken of.
+
+use super::grammar;
+use super::lexicon::{CAUSE, CLASSES, Id, Lexicon, MATERIAL, PLACE, QUANTITY, Role, SURFACE};
+use super::parse::{About, Held, Match, Mention, Reading, Statement};
+use super::spelling::is_preposition;
+use super::text::Token;
+
+impl Reading {
+    /// Gives each mention what it is about.
+    pub fn attach(&mut self, lexicon: &Lexicon, matches: &[Match]) {
+        let mut mentions: [Vec<Mention>; CLASSES] = Default::default();
+        for found in matches {
+            for &id in &found.concepts {
+                if let Role::Entity(class) = lexicon.concept(id).role {
+                    mentions[class].push(Mention {
+                        concept: id,
+                        class,
+                        start: found.start,
+                        end: found.end,
+                    });
+                }
+            }
+        }
+        // Which words are said rather than spoken of: they may stand before their noun.
+        let mut is_state = vec![false; self.tokens.len()];
+        for found in matches.iter().filter(|m| {
+            m.concepts
+                .iter()
+                .any(|&id| lexicon.concept(id).role == Role::State)
+        }) {
+            is_state[found.start..found.end].fill(true);
+        }
+        let ideal = self.ideals();
+        let mut cursor = [0usize; CLASSES];
+        for found in matches {
+            let mut about: [Option<About>; CLASSES] = Default::default();
+            let mut compared = None;
+            for class in 0..CLASSES {
+                let list = &mentions[class];
+                while cursor[class] < list.len() && list[cursor[class]].end <= found.start {
+                    cursor[class] += 1;
+                }
+                about[class] = self.about(list, cursor[class], found, &is_state);
+                if class == PLACE || class == SURFACE {
+                    compared = compared.or_else(|| self.compared(list, cursor[class], found));
+                }
+            }
+            // A place named before the talk turned to another surface is not its place.
+            let since = |class: usize| about[class].as_ref().map_or(0, |a: &About| a.tokens.0);
+            if about[PLACE]
+                .as_ref()
+                .is_some_and(|a| a.held == Held::Remembered)
+                && since(SURFACE).max(since(MATERIAL)) > since(PLACE)
+            {
+                about[PLACE] = None;
+            }
+            let (clause, sentence) = (self.clause[found.start], self.sentence[found.start]);
+            let statement = Statement {
+                concepts: found.concepts.clone(),
+                tokens: (found.start, found.end),
+                denied: self.denied[found.start],
+                void: false,
+                compared: false,
+                ideal: ideal[clause],
+                about,
+                clause,
+                sentence,
+            };
+            if let Some(other) = compared {
+                let opposite: Vec<Id> = found
+                    .concepts
+                    .iter()
+                    .filter_map(|&id| lexicon.concept(id).antonym)
+                    .collect();
+                if !opposite.is_empty() {
+                    let mut implied = statement.clone();
+                    implied.concepts = opposite;
+                    implied.compared = true;
+                    implied.about[other.class] = Some(About {
+                        concepts: vec![other.concept],
+                        held: Held::Local,
+                        tokens: (other.start, other.end),
+                    });
+                    self.statements.push(statement);
+                    self.statements.push(implied);
+                    continue;
+                }
+            }
+            self.statements.push(statement);
+        }
+    }
+
+    /// What stands on the other side of "than".
+    fn compared(&self, list: &[Mention], next: usize, found: &Match) -> Option<Mention> {
+        let than = (found.end..(found.end + 5).min(self.tokens.len()))
+            .find(|&i| self.tokens[i].is("than") || self.tokens[i].is("compared"))?;
+        list.get(next..)?
+            .iter()
+            .find(|m| {
+                m.start > than
+                    && m.start < than + 5
+                    && self.sentence[m.start] == self.sentence[found.start]
+            })
+            .copied()
+    }
+
+    fn about(
+        &self,
+        list: &[Mention],
+        next: usize,
+        found: &Match,
+        is_state: &[bool],
+    ) -> Option<About> {
+        let clause = self.clause[found.start];
+        // The words themselves name it ("white edge" is one entry; "quarter" is not).
+        if let Some(own) = list
+            .get(next)
+            .filter(|m| m.start >= found.start && m.end <= found.end)
+            .filter(|m| !(self.generic.contains(&m.concept) && is_state[found.start]))
+        {
+            let concepts = list[next..]
+                .iter()
+                .take_while(|m| m.end <= found.end)
+                .map(|m| m.concept)
+                .collect();
+            return Some(About {
+                concepts,
+                held: Held::Local,
+                tokens: (own.start, own.end),
+            });
+        }
+        let after = list[next.min(list.len())..]
+            .iter()
+            .take(4)
+            .find(|m| m.start >= found.end);
+        let before = self.before(list, next, clause, found.start);
+        let local =
+            |m: &Mention| Some(self.with_partner(list, self.specific(list, m), Held::Local));
+        let after_here = after.filter(|m| self.clause[m.start] == clause);
+        // "the ball has the larger highlight": an article before the word binds it forward.
+        let article = found.start > 0
+            && matches!(
+                self.tokens[found.start - 1].word.as_str(),
+                "the" | "a" | "an" | "this" | "its" | "no"
+            );
+        if let Some(m) = after_here.filter(|m| article && m.start - found.end <= 2)
+            && (found.end..m.start).all(|i| is_state[i] || self.tokens[i].is("and"))
+        {
+            return local(m);
+        }
+        if let Some(prev) = before.filter(|m| self.clause[m.start] == clause) {
+            let gap = prev.end..found.start;
+            if gap.len() <= 3
+                && gap
+                    .clone()
+                    .all(|i| grammar::is_copula(&self.tokens[i].word) || self.tokens[i].is("not"))
+            {
+                // "rim bright", "rim is bright"; yet "the reflection is weaker at the rim".
+                if self.generic.contains(&prev.concept)
+                    && let Some(m) = after_here.filter(|m| !self.generic.contains(&m.concept))
+                    && (found.end..m.start).any(|i| is_preposition(&self.tokens[i].word))
+                    && m.start - found.end <= 4
+                {
+                    return local(m);
+                }
+                return local(prev);
+            }
+        }
+        if let Some(m) = after_here {
+            let gap = found.end..m.start;
+            let adjectival = gap.len() <= 3
+                && gap.clone().all(|i| {
+                    is_state[i]
+                        || matches!(
+                            self.tokens[i].word.as_str(),
+                            "and" | "or" | "of" | "the" | "part" | "looking"
+                        )
+                });
+            let of_only = gap.clone().any(|i| self.tokens[i].is("the"))
+                && !gap.clone().any(|i| self.tokens[i].is("of"));
+            if adjectival && !of_only {
+                return local(m);
+            }
+            let preposition = gap
+                .clone()
+                .take(3)
+                .find(|&i| is_preposition(&self.tokens[i].word));
+            let trailing = preposition.is_some_and(|i| m.start <= i + 4)
+                && !gap.clone().any(|i| self.tokens[i].is("than"));
+            if trailing
+                && before.is_none_or(|prev| {
+                    self.clause[prev.start] != clause
+                        || found.start - prev.end > 3
+                        || prev.class == PLACE
+                })
+            {
+                return local(m);
+            }
+        }
+        if let Some(prev) = before.filter(|m| self.clause[m.start] == clause) {
+            return local(prev);
+        }
+        if let Some(m) = after_here.filter(|m| {
+            !(m.start - 1..m.start).any(|i| self.tokens[i].is("than")) && m.start - found.end <= 8
+        }) {
+            let than_before = (found.end..m.start)
+                .any(|i| self.tokens[i].is("than") || self.tokens[i].is("compared"));
+            if !than_before {
+                return local(m);
+            }
+        }
+        if list
+            .get(next)
+            .or(list.last())
+            .is_some_and(|m| m.class == QUANTITY)
+        {
+            return None;
+        }
+        let prev = before?;
+        // What an artist might have done ends where the contrast begins.
+        let contrast = |t: &Token| {
+            matches!(
+                t.word.as_str(),
+                "but" | "whereas" | "while" | "however" | ";" | "--"
+            )
+        };
+        if prev.class == CAUSE
+            && self.tokens[prev.end..found.start]
+                .iter()
+                .rev()
+                .take(40)
+                .any(contrast)
+        {
+            return None;
+        }
+        let held = if self.sentence[prev.start] == self.sentence[found.start]
+            || self.refers_back(found.start)
+        {
+            Held::Inherited
+        } else {
+            Held::Remembered
+        };
+        Some(self.with_partner(list, self.specific(list, prev), held))
+    }
+
+    /// "At the edge the reflection ...": the place named first is the one meant.
+    fn specific<'a>(&self, list: &'a [Mention], m: &'a Mention) -> &'a Mention {
+        if m.class != PLACE || !self.generic.contains(&m.concept) {
+            return m;
+        }
+        let index = list.partition_point(|other| other.start < m.start);
+        let Some(earlier) = index.checked_sub(1).and_then(|i| list.get(i)) else {
+            return m;
+        };
+        let leads = (earlier.start.saturating_sub(3)..earlier.start)
+            .any(|i| is_preposition(&self.tokens[i].word));
+        let same = self.clause[earlier.start] == self.clause[m.start]
+            && !self.generic.contains(&earlier.concept);
+        if same && leads { earlier } else { m }
+    }
+
+    /// Whether a sentence begins by taking up the one before: "There it is", "This".
+    fn refers_back(&self, at: usize) -> bool {
+        let sentence = self.sentence[at];
+        let first = self.sentence.partition_point(|&s| s < sentence);
+        let word = self
+            .tokens
+            .get(first)
+            .map(|t| t.word.as_str())
+            .unwrap_or_default();
+        matches!(
+            word,
+            "it" | "its"
+                | "there"
+                | "this"
+                | "that"
+                | "these"
+                | "those"
+                | "they"
+                | "here"
+                | "and"
+                | "so"
+                | "way"
+                | "too"
+                | "where"
+        )
+    }
+
+    /// The last mention before, leaving out what stands behind "than".
+    fn before<'a>(
+        &self,
+        list: &'a [Mention],
+        next: usize,
+        clause: usize,
+        _at: usize,
+    ) -> Option<&'a Mention> {
+        let mut index = next;
+        for _ in 0..3 {
+            index = index.checked_sub(1)?;
+            let m = &list[index];
+            let behind_than = (m.start.saturating_sub(3)..m.start).any(|i| {
+                (self.tokens[i].is("than")
+                    || self.tokens[i].is("against")
+                    || self.tokens[i].is("compared"))
+                    && self.clause[i] == self.clause[m.start]
+            });
+            if !(behind_than && index > 0)
+                || self.clause[m.start] != clause
+                    && self.sentence[m.start] != self.sentence.get(m.end).copied().unwrap_or(0)
+            {
+                return Some(m);
+            }
+        }
+        list.get(next.checked_sub(1)?)
+    }
+
+    /// "the rim and the centre": both.
+    fn with_partner(&self, list: &[Mention], m: &Mention, held: Held) -> About {
+        let mut concepts = vec![m.concept];
+        let index = list.partition_point(|other| other.start < m.start);
+        if let Some(other) = index.checked_sub(1).and_then(|i| list.get(i)) {
+            let gap = other.end..m.start;
+            let joined = gap.len() <= 3
+                && gap
+                    .clone()
+                    .any(|i| self.tokens[i].is("and") || self.tokens[i].is("or"))
+                && gap
+                    .clone()
+                    .all(|i| matches!(self.tokens[i].word.as_str(), "and" | "or" | "the" | "its"));
+            if joined && other.concept != m.concept {
+                concepts.push(other.concept);
+            }
+        }
+        About {
+            concepts,
+            held,
+            tokens: (m.start, m.end),
+        }
+    }
+}

@@ -1,0 +1,379 @@
+//! What is said but not claimed: taken back, dismissed, asked, only listed; and what is claimed
+//! without being said again.
+
+use super::grammar;
+use super::lexicon::{CLASSES, Id, Lexicon, PLACE, QUANTITY, Role, SURFACE};
+use super::parse::{About, Held, Reading, Statement, starts_with};
+use super::text::{Kind, Token};
+
+impl Reading {
+    /// Marks what is said but not claimed: taken back, dismissed, asked, echoed, or only a
+    /// list of words.
+    pub fn void(&mut self, lexicon: &Lexicon, mute: &[bool]) {
+        let asked = self.questions();
+        let listed = self.lists();
+        for statement in &mut self.statements {
+            let (start, end) = statement.tokens;
+            let muted = mute
+                .get(start..end)
+                .is_some_and(|range| range.iter().any(|&m| m));
+            statement.void = muted || asked[statement.sentence] || listed[statement.sentence];
+        }
+        // "a quarter as bright as it should be" does not say bright.
+        for statement in &mut self.statements {
+            let (start, end) = statement.tokens;
+            let share = |t: &Token| {
+                matches!(
+                    t.word.as_str(),
+                    "#1/4" | "quarter" | "half" | "third" | "#num" | "#0.9" | "fourth" | "fraction"
+                )
+            };
+            let measured = start > 0
+                && self.tokens[start - 1].is("as")
+                && (self.tokens.get(end).is_some_and(|t| t.is("as"))
+                    || self.tokens[start.saturating_sub(4)..start]
+                        .iter()
+                        .any(share));
+            statement.void |= measured;
+        }
+        self.pass_through(lexicon);
+        self.take_back(lexicon);
+        self.dismiss();
+        self.complete(lexicon);
+    }
+
+    /// "it collapses to 1 -> 1/pi": the last value of a chain is the one meant.
+    fn pass_through(&mut self, lexicon: &Lexicon) {
+        let number = |s: &Statement| {
+            s.concepts
+                .iter()
+                .any(|&id| matches!(lexicon.concept(id).name.as_str(), "one" | "zero"))
+        };
+        let value = |s: &Statement| {
+            s.concepts.iter().any(|&id| {
+                matches!(
+                    lexicon.concept(id).name.as_str(),
+                    "singular" | "oneoverpi" | "quarter"
+                )
+            })
+        };
+        for index in 1..self.statements.len() {
+            let (before, after) = self.statements.split_at_mut(index);
+            let (first, second) = (&mut before[index - 1], &after[0]);
+            let leads = second.tokens.0 == first.tokens.1 + 1
+                && self
+                    .tokens
+                    .get(first.tokens.1)
+                    .is_some_and(|t| t.is("->") || t.is("=") || t.is("/"));
+            if leads && number(first) && value(second) {
+                first.void = true;
+            }
+        }
+    }
+
+    /// "The edges get too dark, and the centre too": says the same of the centre.
+    fn complete(&mut self, lexicon: &Lexicon) {
+        let is_state = |s: &Statement| {
+            s.concepts
+                .iter()
+                .any(|&id| lexicon.concept(id).role == Role::State)
+        };
+        let mut added: Vec<Statement> = Vec::new();
+        for (index, entity) in self.statements.iter().enumerate() {
+            let Some(class) =
+                entity
+                    .concepts
+                    .iter()
+                    .find_map(|&id| match lexicon.concept(id).role {
+                        Role::Entity(class) if class == PLACE || class == SURFACE => Some(class),
+                        _ => None,
+                    })
+            else {
+                continue;
+            };
+            let (start, end) = entity.tokens;
+            let after = self
+                .tokens
+                .get(end)
+                .map(|t| t.word.as_str())
+                .unwrap_or_default();
+            let ends = self
+                .tokens
+                .get(end + 1)
+                .is_none_or(|t| t.kind != Kind::Word && t.kind != Kind::Value);
+            let trails = matches!(after, "too" | "also" | "likewise") && ends
+                || after == "as" && self.tokens.get(end + 1).is_some_and(|t| t.is("well"));
+            let leads = (start.saturating_sub(4)..start).any(|i| {
+                matches!(self.tokens[i].word.as_str(), "as" | "so")
+                    && self.tokens.get(i + 1).is_some_and(|t| {
+                        matches!(
+                            t.word.as_str(),
+                            "will" | "is" | "does" | "do" | "are" | "would"
+                        )
+                    })
+            });
+            let above_all = (start.saturating_sub(2)..start).any(|i| {
+                matches!(
+                    self.tokens[i].word.as_str(),
+                    "mostly"
+                        | "especially"
+                        | "particularly"
+                        | "mainly"
+                        | "chiefly"
+                        | "notably"
+                        | "particular"
+                )
+            }) && !self.statements[index..]
+                .iter()
+                .take_while(|s| s.clause == entity.clause)
+                .any(is_state);
+            if !(trails || leads || above_all) {
+                continue;
+            }
+            let about = entity.about[class].clone();
+            let earlier = self.statements[..index]
+                .iter()
+                .rev()
+                .take_while(|s| s.sentence + 1 >= entity.sentence)
+                .take(8);
+            if let Some(said) = earlier
+                .filter(|s| is_state(s))
+                .find(|s| s.tokens.1 <= start)
+            {
+                let mut copy = said.clone();
+                copy.about[class] = about;
+                added.push(copy);
+            }
+        }
+        self.statements.extend(added);
+        self.statements.sort_by_key(|s| (s.tokens.0, s.tokens.1));
+    }
+
+    /// For each clause, whether it says what ought to be rather than what is.
+    pub fn ideals(&self) -> Vec<bool> {
+        let mut ideal = vec![false; self.clause.last().map_or(0, |last| last + 1)];
+        let mut contrasts = false;
+        for (at, token) in self.tokens.iter().enumerate() {
+            if at == 0 || self.clause[at] != self.clause[at - 1] {
+                contrasts = matches!(
+                    token.word.as_str(),
+                    "while" | "whereas" | "although" | "though"
+                );
+            }
+            let ought = matches!(token.word.as_str(), "should" | "ought" | "supposed");
+            let really = self.tokens.get(at + 1).is_some_and(|next| {
+                matches!(
+                    next.word.as_str(),
+                    "really" | "actually" | "normally" | "rather" | "in"
+                )
+            });
+            let reference = matches!(token.word.as_str(), "normally" | "usually" | "ordinarily");
+            ideal[self.clause[at]] |= (ought && (contrasts || really)) || reference;
+        }
+        ideal
+    }
+
+    fn sentences(&self) -> usize {
+        self.sentence.last().map_or(0, |last| last + 1)
+    }
+
+    fn questions(&self) -> Vec<bool> {
+        let mut asked = vec![false; self.sentences()];
+        let mut first = true;
+        let mut asks = false;
+        for (at, token) in self.tokens.iter().enumerate() {
+            if first && token.kind == Kind::Word {
+                asks = grammar::asks(&token.word);
+                first = false;
+            }
+            if token.ends_sentence() {
+                // "Double division? Not at all."
+                let refused = self.tokens.get(at + 1).is_some_and(|next| {
+                    matches!(
+                        next.word.as_str(),
+                        "no" | "not" | "nope" | "never" | "nah" | "hardly"
+                    )
+                });
+                asked[self.sentence[at]] = token.kind == Kind::Question && (asks || refused);
+                first = true;
+                asks = false;
+            }
+        }
+        asked
+    }
+
+    /// Sentences that are lists of words of the field without anything said.
+    fn lists(&self) -> Vec<bool> {
+        let mut words = vec![0usize; self.sentences()];
+        let mut glue = words.clone();
+        let mut mentions = words.clone();
+        for (at, token) in self.tokens.iter().enumerate() {
+            words[self.sentence[at]] += usize::from(matches!(token.kind, Kind::Word | Kind::Value));
+            glue[self.sentence[at]] += usize::from(grammar::is_glue(&token.word));
+        }
+        for statement in self.statements.iter().filter(|s| !s.compared) {
+            mentions[statement.sentence] += 1;
+        }
+        (0..words.len())
+            .map(|s| mentions[s] >= 7 && glue[s] * 10 < words[s])
+            .collect()
+    }
+
+    /// "it is infinite, but no, it is 1": the later statement of the two stands.
+    fn take_back(&mut self, lexicon: &Lexicon) {
+        let markers: Vec<usize> = (0..self.tokens.len())
+            .filter(|&at| {
+                grammar::CORRECTIONS
+                    .iter()
+                    .any(|words| starts_with(&self.tokens, at, words))
+            })
+            .collect();
+        for marker in markers {
+            let here = self.sentence[marker];
+            let split = self.statements.partition_point(|s| s.tokens.0 < marker);
+            let from = self.statements[..split]
+                .iter()
+                .rposition(|s| s.sentence + 1 < here)
+                .map_or(0, |i| i + 1)
+                .max(split.saturating_sub(12));
+            let to = (split + 12).min(self.statements.len());
+            for earlier in from..split {
+                let conflict = (split..to).any(|later| {
+                    self.statements[later].sentence <= here + 1
+                        && conflicts(lexicon, &self.statements[earlier], &self.statements[later])
+                });
+                if conflict {
+                    self.statements[earlier].void = true;
+                }
+            }
+        }
+    }
+
+    fn dismiss(&mut self) {
+        for at in 0..self.tokens.len() {
+            if !grammar::DISMISSALS
+                .iter()
+                .any(|words| starts_with(&self.tokens, at, words))
+            {
+                continue;
+            }
+            let clause = self.clause[at];
+            // A dismissal that opens its sentence speaks of the sentence before.
+            let opens = self.sentence[at] != self.sentence[at.saturating_sub(2)] || at < 2;
+            let sentence = if opens {
+                self.sentence[at].saturating_sub(1)
+            } else {
+                self.sentence[at]
+            };
+            let split = self.statements.partition_point(|s| s.tokens.0 < at);
+            for statement in self.statements[..split]
+                .iter_mut()
+                .rev()
+                .take_while(|s| s.sentence >= sentence)
+                .take(12)
+            {
+                statement.void |= statement.clause < clause || opens;
+            }
+        }
+    }
+
+    /// The first clause that speaks of one of these and says something of it in words that
+    /// are not known.
+    pub fn unread(&self, lexicon: &Lexicon, topics: &[Id]) -> Option<(usize, usize)> {
+        let heard = self
+            .statements
+            .iter()
+            .filter(|s| {
+                s.concepts
+                    .iter()
+                    .any(|&id| lexicon.concept(id).role == Role::State)
+            })
+            .any(|s| {
+                s.about.iter().flatten().any(|about| {
+                    about.held >= Held::Inherited
+                        && about.concepts.iter().any(|id| topics.contains(id))
+                })
+            });
+        if heard {
+            return None;
+        }
+        let mut start = 0;
+        while start < self.tokens.len() {
+            let clause = self.clause[start];
+            let end = start
+                + self.clause[start..]
+                    .iter()
+                    .take_while(|&&c| c == clause)
+                    .count();
+            let (from, to) = self.of_clause[clause];
+            let here = self.statements[from..to]
+                .iter()
+                .filter(|s| s.clause == clause);
+            let names = here
+                .clone()
+                .any(|s| s.concepts.iter().any(|id| topics.contains(id)) && !s.void);
+            let says = here.clone().any(|s| {
+                s.concepts
+                    .iter()
+                    .any(|&id| lexicon.concept(id).role == Role::State)
+            });
+            let strange = (start..end).any(|i| {
+                let token = &self.tokens[i];
+                !self.heard[i]
+                    && token.kind == Kind::Word
+                    && token.word.len() > 3
+                    && !grammar::is_known(&token.word)
+                    && !grammar::is_known(&self.forms[i].stem)
+            });
+            if names && strange && !says {
+                return Some((self.tokens[start].start, self.tokens[end - 1].end));
+            }
+            start = end;
+        }
+        None
+    }
+
+    pub fn index(&mut self) {
+        let clauses = self.clause.last().map_or(0, |last| last + 1);
+        self.of_clause = vec![(0, 0); clauses];
+        for (at, statement) in self.statements.iter().enumerate() {
+            let range = &mut self.of_clause[statement.clause];
+            if range.1 == 0 {
+                range.0 = at;
+            }
+            range.1 = at + 1;
+        }
+    }
+}
+
+/// Whether two statements about the same thing cannot both be held.
+pub fn conflicts(lexicon: &Lexicon, a: &Statement, b: &Statement) -> bool {
+    let same_topic = (0..CLASSES)
+        .filter(|&class| class != QUANTITY)
+        .all(|class| match (&a.about[class], &b.about[class]) {
+            (Some(x), Some(y)) => {
+                let generic = |about: &About| {
+                    about.concepts.iter().all(|&id| {
+                        matches!(lexicon.concept(id).name.as_str(), "whole" | "highlight")
+                    })
+                };
+                x.concepts.iter().any(|id| y.concepts.contains(id))
+                    || (class == PLACE && (generic(x) || generic(y)))
+            }
+            _ => true,
+        });
+    let values = ["singular", "zero", "one", "oneoverpi"];
+    let opposed = a.concepts.iter().any(|&x| {
+        b.concepts.iter().any(|&y| {
+            let (cx, cy) = (lexicon.concept(x), lexicon.concept(y));
+            let both_values =
+                values.contains(&cx.name.as_str()) && values.contains(&cy.name.as_str());
+            if a.denied == b.denied {
+                cx.antonym == Some(y) || (both_values && x != y)
+            } else {
+                x == y
+            }
+        })
+    });
+    same_topic && opposed
+}

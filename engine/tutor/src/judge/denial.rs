@@ -1,0 +1,108 @@
+//! Denials and how far they reach.
+
+use super::grammar;
+use super::lexicon::Lexicon;
+use super::parse::{Match, starts_with};
+use super::text::{Kind, Token};
+
+/// For each token, whether it stands in the reach of a denial. Two denials cancel out.
+pub fn denials(
+    lexicon: &Lexicon,
+    tokens: &[Token],
+    matches: &[Match],
+    clause: &[usize],
+    sentence: &[usize],
+) -> Vec<bool> {
+    let mut denied = vec![false; tokens.len()];
+    let mut inside = vec![false; tokens.len()];
+    for found in matches {
+        inside[found.start..found.end].fill(true);
+    }
+    let mut at = 0;
+    while at < tokens.len() {
+        let token = &tokens[at];
+        if inside[at] {
+            at += 1;
+            continue;
+        }
+        let report = grammar::REPORTS
+            .iter()
+            .find(|words| starts_with(tokens, at, words));
+        let negator = token.kind == Kind::Word && grammar::is_negator(&token.word);
+        let not_only = starts_with(tokens, at, &["not", "only"])
+            || starts_with(tokens, at, &["not", "just"])
+            || starts_with(tokens, at, &["not", "merely"]);
+        let idle = starts_with(tokens, at, &["no", "doubt"])
+            || starts_with(tokens, at, &["no", "wonder"])
+            || starts_with(tokens, at, &["no", "idea"])
+            || starts_with(tokens, at, &["no", "matter"])
+            || starts_with(tokens, at, &["not", "sure"])
+            || starts_with(tokens, at, &["not", "know"])
+            || (token.is("no")
+                && tokens
+                    .get(at + 1)
+                    .is_none_or(|t| t.kind != Kind::Word && t.kind != Kind::Value))
+            || starts_with(tokens, at, &["nothing", "but"])
+            || starts_with(tokens, at, &["nothing", "else"]);
+        if report.is_none() && (!negator || not_only || idle) {
+            at += 1;
+            continue;
+        }
+        let skip = report.map_or(1, |words| words.len());
+        let speech = report.is_some_and(|words| {
+            matches!(
+                words[words.len() - 1],
+                "say" | "think" | "expect" | "people" | "would" | "that"
+            )
+        });
+        let wide = speech || token.is("neither") || token.is("nobody") || token.is("none");
+        // "less" and "not" before a measure reach only it; a denial reaches to the clause's end.
+        let mut end = at + skip;
+        let limit = if wide { at + 24 } else { at + 14 };
+        while end < tokens.len() && end < limit && sentence[end] == sentence[at] {
+            let word = &tokens[end];
+            let hard =
+                matches!(word.kind, Kind::Break | Kind::Stop | Kind::Question) || word.is("->");
+            let soft = word.kind == Kind::Comma
+                || grammar::ends_denial(&word.word)
+                || (word.is("and") && clause[end] != clause[at]);
+            let passed = wide && (word.kind == Kind::Comma || word.is("and"));
+            // "not so bright", "not even close".
+            let opens = end == at + skip && word.kind == Kind::Word && !word.is("but");
+            if hard || (soft && !passed && !opens && !inside[end]) {
+                break;
+            }
+            if end > at + skip && !inside[end] && grammar::is_negator(&word.word) {
+                break;
+            }
+            end += 1;
+        }
+        for flag in &mut denied[at + skip..end] {
+            *flag = !*flag;
+        }
+        at = (at + skip).max(at + 1);
+    }
+    less(lexicon, tokens, matches, &mut denied);
+    denied
+}
+
+/// "less concentrated", "not as wide": denies the one word that follows.
+fn less(lexicon: &Lexicon, tokens: &[Token], matches: &[Match], denied: &mut [bool]) {
+    for pair in matches.windows(2) {
+        let [first, second] = pair else { continue };
+        let is_less = first.end == first.start + 1
+            && matches!(
+                tokens[first.start].word.as_str(),
+                "less" | "least" | "little"
+            );
+        let measures = second
+            .concepts
+            .iter()
+            .any(|&id| lexicon.concept(id).antonym.is_some());
+        if is_less && measures && second.start == first.end {
+            for flag in &mut denied[second.start..second.end] {
+                *flag = !*flag;
+            }
+        }
+    }
+}
