@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use tutor::Lesson;
 use tutor::exercise::{Draw, Marking, Truth, draw, hint, mark, tolerance_words};
+use tutor::lesson::Exercise;
 
 fn lesson() -> Lesson {
     let text = include_str!("fixtures/complete.toml");
@@ -19,37 +20,53 @@ fn apart(a: f64, b: f64, rel: f64) -> bool {
     (a - b).abs() > rel * (a.abs() + b.abs())
 }
 
-const NUMERIC: [&str; 5] = [
-    "fixture/v",
-    "fixture/ratio",
-    "fixture/peak",
-    "fixture/d",
-    "fixture/worked",
-];
+/// The fixture and the lessons that the program ships with.
+fn lessons() -> Vec<Lesson> {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../lessons");
+    let files = std::fs::read_dir(folder).expect("the lessons");
+    let mut paths: Vec<_> = files.map(|file| file.expect("a file").path()).collect();
+    paths.sort();
+    let texts = paths
+        .iter()
+        .map(|path| std::fs::read_to_string(path).expect("text"));
+    let shipped = texts.map(|text| tutor::load("lesson.toml", &text).0.expect("a lesson"));
+    std::iter::once(lesson()).chain(shipped).collect()
+}
+
+/// Every exercise that asks for numbers, the faded worked example included.
+fn numeric(lesson: &Lesson) -> impl Iterator<Item = &Exercise> {
+    let faded = lesson.worked.as_ref().and_then(|it| it.faded.as_ref());
+    let all = lesson.exercises.iter().chain(faded.map(|it| &it.exercise));
+    all.filter(|it| matches!(it.kind(), "numeric" | "find-the-mistake"))
+}
+
+/// Every exercise of the lessons with its first seeds.
+fn cases(lessons: &[Lesson], seeds: u64) -> impl Iterator<Item = (&Lesson, &Exercise, u64)> {
+    let exercises = lessons
+        .iter()
+        .flat_map(|lesson| numeric(lesson).map(move |it| (lesson, it)));
+    exercises.flat_map(move |(lesson, it)| (0..seeds).map(move |seed| (lesson, it, seed)))
+}
 
 #[test]
 fn draws_tell_every_mistake_apart() {
-    let lesson = lesson();
-    for id in NUMERIC {
-        let exercise = lesson.exercise(id).expect("the exercise");
-        let rel = exercise.tolerance.rel;
-        for seed in 0..12 {
-            let drawn = drawn(&lesson, id, seed);
-            let again = draw(&lesson, exercise, seed).expect("numbers");
-            assert_eq!(drawn, again, "{id} {seed}");
-            for step in &drawn.steps {
-                let here = || drawn.mistakes.iter().filter(|it| it.step == step.name);
-                for (index, mistake) in here().enumerate() {
+    for (lesson, exercise, seed) in cases(&lessons(), 5) {
+        let (id, rel) = (&exercise.id, exercise.tolerance.rel);
+        let drawn = drawn(lesson, id, seed);
+        let again = draw(lesson, exercise, seed).expect("numbers");
+        assert_eq!(drawn, again, "{id} {seed}");
+        for step in &drawn.steps {
+            let here = || drawn.mistakes.iter().filter(|it| it.step == step.name);
+            for (index, mistake) in here().enumerate() {
+                assert!(
+                    apart(mistake.value, step.truth, rel),
+                    "{id} {seed} {mistake:?}"
+                );
+                for other in here().take(index).filter(|it| it.named) {
                     assert!(
-                        apart(mistake.value, step.truth, rel),
-                        "{id} {seed} {mistake:?}"
+                        apart(mistake.value, other.value, rel),
+                        "{id} {seed} {other:?}"
                     );
-                    for other in here().take(index).filter(|it| it.named) {
-                        assert!(
-                            apart(mistake.value, other.value, rel),
-                            "{id} {seed} {other:?}"
-                        );
-                    }
                 }
             }
         }
@@ -58,53 +75,49 @@ fn draws_tell_every_mistake_apart() {
 
 #[test]
 fn every_truth_is_right_and_every_mistake_is_met() {
-    let lesson = lesson();
     let none = BTreeMap::new();
-    for id in NUMERIC {
-        let exercise = lesson.exercise(id).expect("the exercise");
-        let rel = exercise.tolerance.rel;
-        for seed in 0..6 {
-            let drawn = drawn(&lesson, id, seed);
-            for step in &drawn.steps {
-                let marked = |value: f64| {
-                    mark(
-                        &lesson,
-                        exercise,
-                        &drawn,
-                        Some(&step.name),
-                        &format!("{value:e}"),
-                        &none,
-                    )
-                };
-                for factor in [1.0, 1.0 - rel, 1.0 + rel] {
-                    let found = marked(step.truth * factor);
-                    assert_eq!(found, Marking::Correct, "{id} {seed} {step:?} {factor}");
-                }
-                for factor in [1.0 - 1.01 * rel, 1.0 + 1.01 * rel] {
-                    let found = marked(step.truth * factor);
-                    assert_ne!(found, Marking::Correct, "{id} {seed} {step:?} {factor}");
-                }
-                for mistake in drawn.mistakes.iter().filter(|it| it.step == step.name) {
-                    match marked(mistake.value) {
-                        Marking::Mistake { id, .. } => {
-                            assert!(id == mistake.id || !mistake.named, "{id} {mistake:?}");
-                        }
-                        Marking::Ambiguous { ids, .. } => assert!(ids.contains(&mistake.id)),
-                        // 0.5 for 0.51: more likely too few digits than an unnamed mistake.
-                        Marking::Precision { .. } => assert!(!mistake.named),
-                        other => panic!("{id} {seed} {mistake:?}: {other:?}"),
-                    }
-                }
-                let found = mark(
-                    &lesson,
+    for (lesson, exercise, seed) in cases(&lessons(), 3) {
+        let (id, rel) = (&exercise.id, exercise.tolerance.rel);
+        let drawn = drawn(lesson, id, seed);
+        for step in drawn.steps.iter().filter(|it| it.name != "line") {
+            let marked = |value: f64| {
+                mark(
+                    lesson,
                     exercise,
                     &drawn,
                     Some(&step.name),
-                    &step.shown,
+                    &format!("{value:e}"),
                     &none,
-                );
-                assert_eq!(found, Marking::Correct, "{id} {seed} {step:?}");
+                )
+            };
+            for factor in [1.0, 1.0 - rel, 1.0 + rel] {
+                let found = marked(step.truth * factor);
+                assert_eq!(found, Marking::Correct, "{id} {seed} {step:?} {factor}");
             }
+            for factor in [1.0 - 1.01 * rel, 1.0 + 1.01 * rel] {
+                let found = marked(step.truth * factor);
+                assert_ne!(found, Marking::Correct, "{id} {seed} {step:?} {factor}");
+            }
+            for mistake in drawn.mistakes.iter().filter(|it| it.step == step.name) {
+                match marked(mistake.value) {
+                    Marking::Mistake { id, .. } => {
+                        assert!(id == mistake.id || !mistake.named, "{id} {mistake:?}");
+                    }
+                    Marking::Ambiguous { ids, .. } => assert!(ids.contains(&mistake.id)),
+                    // 0.5 for 0.51: more likely too few digits than an unnamed mistake.
+                    Marking::Precision { .. } => assert!(!mistake.named),
+                    other => panic!("{id} {seed} {mistake:?}: {other:?}"),
+                }
+            }
+            let found = mark(
+                lesson,
+                exercise,
+                &drawn,
+                Some(&step.name),
+                &step.shown,
+                &none,
+            );
+            assert_eq!(found, Marking::Correct, "{id} {seed} {step:?}");
         }
     }
 }

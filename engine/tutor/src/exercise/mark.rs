@@ -133,7 +133,7 @@ pub fn mark(
         (Task::Choice { .. }, _) => super::words::mark_choice(lesson, exercise, draw, answer),
         (Task::Order { .. }, _) => super::words::mark_order(draw, answer),
         (Task::FindTheMistake { lines, .. }, Some("line")) => {
-            super::words::mark_line(lesson, lines, draw, answer)
+            super::words::mark_line(lesson, lines, answer)
         }
         _ => mark_number(lesson, exercise, draw, step, answer, earlier),
     }

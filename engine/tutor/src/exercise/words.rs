@@ -97,7 +97,7 @@ pub fn mark_order(draw: &Draw, answer: &str) -> Marking {
 }
 
 /// The number or the name of the wrong line.
-pub fn mark_line(lesson: &Lesson, lines: &[SuspectLine], draw: &Draw, answer: &str) -> Marking {
+pub fn mark_line(lesson: &Lesson, lines: &[SuspectLine], answer: &str) -> Marking {
     let typed = answer.trim();
     let bare = typed
         .to_lowercase()
@@ -122,15 +122,9 @@ pub fn mark_line(lesson: &Lesson, lines: &[SuspectLine], draw: &Draw, answer: &s
         return Marking::Correct;
     }
     let says = if wrong.is_some_and(|wrong| number - 1 > wrong) {
-        format!(
-            "Line {number} follows faithfully from the lines before it; the slip is further up."
-        )
+        format!("Line {number} follows faithfully from the lines before it; the slip is earlier.")
     } else {
-        format!(
-            "Line {number} is right as it stands; {} comes later.",
-            "the slip"
-        )
+        format!("Line {number} is right as it stands; the slip comes later.")
     };
-    let _ = draw;
     Marking::Wrong { says }
 }
