@@ -639,6 +639,34 @@ impl<S: Single> Metal<S> {
     }
 }
 
+/// Quotients, to measure how fast the machine divides.
+pub fn divide(isa: Isa, a: &[f32], b: &[f32], out: &mut [f32]) {
+    dispatch!(isa, divide_body(a: &[f32], b: &[f32], out: &mut [f32]))
+}
+
+#[inline(always)]
+fn divide_body<S: Single>(a: &[f32], b: &[f32], out: &mut [f32]) {
+    let n = a.len().min(b.len()).min(out.len());
+    let (a, b, out) = (&a[..n], &b[..n], &mut out[..n]);
+    for i in 0..n {
+        out[i] = (S::load(a[i]) / S::load(b[i])).store();
+    }
+}
+
+/// Square roots, to measure how fast the machine takes them.
+pub fn square_root(isa: Isa, a: &[f32], out: &mut [f32]) {
+    dispatch!(isa, square_root_body(a: &[f32], out: &mut [f32]))
+}
+
+#[inline(always)]
+fn square_root_body<S: Single>(a: &[f32], out: &mut [f32]) {
+    let n = a.len().min(out.len());
+    let (a, out) = (&a[..n], &mut out[..n]);
+    for i in 0..n {
+        out[i] = S::load(a[i]).sqrt().store();
+    }
+}
+
 /// What [`sample`] returns, as slices to fill: the light's components, its density in 1/sr, and
 /// the weight BRDF · N·L / density with F = 1.
 #[derive(Debug)]

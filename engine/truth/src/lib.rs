@@ -5,8 +5,10 @@
 //! `brdf`: a formula measured against itself in higher precision would agree with its own
 //! mistake. `bench`, `stress` and tests measure against this crate; `brdf` never uses it.
 
+pub mod bench;
 mod big;
 mod forms;
+pub mod naive;
 pub mod stress;
 
 pub use big::Big;

@@ -1,0 +1,194 @@
+//! Run time against error, for every term and every way to compute it.
+//!
+//! Times are of one thread on data in the nearest caches: the best of many short runs, since
+//! everything that disturbs a run makes it longer. Errors are in units of the last place
+//! against the textbook forms in high precision, at random points of the sensible ranges; the
+//! search for the worst points is [`crate::stress`].
+
+mod approximations;
+mod batches;
+mod terms;
+
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+/// One way to compute something: how long it takes and how wrong it is.
+#[derive(Debug, Clone)]
+pub struct Row {
+    /// What is computed: a term, `specular`, `albedo`, ...
+    pub group: String,
+    /// How: `f32`, `batch`, `hoisted`, ...
+    pub variant: String,
+    /// `f32` or `f64`.
+    pub precision: &'static str,
+    /// `baseline`, `avx2` or `avx512`.
+    pub isa: &'static str,
+    /// Nanoseconds for one evaluation.
+    pub ns: f64,
+    /// Share of what the machine's division and square-root units allow, where that is known.
+    pub limit_ratio: Option<f64>,
+    /// Largest error.
+    pub max_ulp: f64,
+    /// Error that one point in a thousand exceeds.
+    pub p999_ulp: f64,
+    /// Error that half of the points exceed.
+    pub median_ulp: f64,
+    /// `ulp`, or `relative` for approximations.
+    pub error_unit: &'static str,
+    /// Whether no other row of the group is both faster and more accurate.
+    pub pareto: bool,
+}
+
+impl Row {
+    /// Million evaluations a second.
+    pub fn meval_s(&self) -> f64 {
+        1e3 / self.ns
+    }
+}
+
+/// How long to measure.
+#[derive(Debug, Clone, Copy)]
+pub struct Effort {
+    /// For the time of each row.
+    pub time: Duration,
+    /// Points at which the error of each row is taken.
+    pub points: usize,
+}
+
+impl Effort {
+    /// Everything in some ten seconds.
+    pub const QUICK: Effort = Effort {
+        time: Duration::from_millis(20),
+        points: 500,
+    };
+    /// Everything in a few minutes.
+    pub const FULL: Effort = Effort {
+        time: Duration::from_millis(200),
+        points: 5_000,
+    };
+}
+
+/// What divisions and square roots cost on this machine.
+#[derive(Debug, Clone, Copy)]
+pub struct Limit {
+    /// The instruction set.
+    pub isa: &'static str,
+    /// Nanoseconds a lane for a division.
+    pub division_ns: f64,
+    /// Nanoseconds a lane for a square root.
+    pub square_root_ns: f64,
+}
+
+/// The limits of every instruction set that this machine has, measured.
+pub fn limits(effort: Effort) -> Vec<Limit> {
+    batches::limits(effort)
+}
+
+/// All rows, group by group; `done` is told of each group when it is finished.
+pub fn run(effort: Effort, limits: &[Limit], mut done: impl FnMut(&[Row])) -> Vec<Row> {
+    let mut all: Vec<Row> = Vec::new();
+    let mut add = |mut rows: Vec<Row>| {
+        mark_pareto(&mut rows);
+        done(&rows);
+        all.append(&mut rows);
+    };
+    for term in brdf::terms() {
+        add(terms::rows(term, effort));
+    }
+    for group in batches::groups(effort, limits) {
+        add(group);
+    }
+    for group in approximations::groups(effort) {
+        add(group);
+    }
+    all
+}
+
+/// Marks the rows that no other row beats in time and in error. Different units of error
+/// are not compared.
+pub fn mark_pareto(rows: &mut [Row]) {
+    let beaten = |row: &Row, by: &Row| {
+        row.error_unit == by.error_unit
+            && by.ns <= row.ns
+            && by.max_ulp <= row.max_ulp
+            && (by.ns < row.ns || by.max_ulp < row.max_ulp)
+    };
+    for i in 0..rows.len() {
+        rows[i].pareto = !rows.iter().any(|by| beaten(&rows[i], by));
+    }
+}
+
+/// Nanoseconds for one of the `count` evaluations that a call of `f` makes: the best of runs
+/// of some fifty microseconds each.
+pub(crate) fn time(effort: Effort, count: usize, mut f: impl FnMut()) -> f64 {
+    let once = {
+        let start = Instant::now();
+        f();
+        start.elapsed().as_secs_f64().max(1e-9)
+    };
+    let repeats = ((5e-5 / once) as usize).clamp(1, 10_000);
+    let (begin, mut best, mut runs) = (Instant::now(), f64::INFINITY, 0);
+    while runs < 5 || begin.elapsed() < effort.time {
+        let start = Instant::now();
+        for _ in 0..repeats {
+            f();
+        }
+        best = best.min(start.elapsed().as_secs_f64() / repeats as f64);
+        runs += 1;
+    }
+    best / count as f64 * 1e9
+}
+
+/// Keeps the compiler from computing a value in advance, or not at all.
+pub(crate) fn opaque<T>(value: T) -> T {
+    black_box(value)
+}
+
+/// Errors, summarised.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Errors {
+    pub max: f64,
+    pub p999: f64,
+    pub median: f64,
+}
+
+impl Errors {
+    /// NaN counts as infinitely wrong.
+    pub fn of(mut errors: Vec<f64>) -> Errors {
+        for error in &mut errors {
+            if error.is_nan() {
+                *error = f64::INFINITY;
+            }
+        }
+        errors.sort_by(f64::total_cmp);
+        let at = |share: f64| {
+            let index = (share * errors.len() as f64) as usize;
+            errors
+                .get(index.min(errors.len().saturating_sub(1)))
+                .copied()
+                .unwrap_or(0.0)
+        };
+        Errors {
+            max: at(1.0),
+            p999: at(0.999),
+            median: at(0.5),
+        }
+    }
+}
+
+/// Numbers that follow from a seed (SplitMix64).
+pub(crate) struct Numbers(pub u64);
+
+impl Numbers {
+    pub fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    pub fn between(&mut self, (low, high): (f64, f64)) -> f64 {
+        low + (high - low) * self.unit()
+    }
+}
