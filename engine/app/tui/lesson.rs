@@ -195,7 +195,7 @@ impl LessonScreen {
             Field::Editor(_) => {
                 let text = self.field.text().unwrap_or_default();
                 self.typed = None;
-                self.send(Msg::Answer(text))
+                self.send(Msg::Answer(text.trim_end().to_owned()))
             }
             _ => Flow::Stay,
         }

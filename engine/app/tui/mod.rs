@@ -213,9 +213,11 @@ impl App<'_> {
         if let Screen::Lesson(lesson) = &mut self.screen
             && draw::has_room(area)
         {
-            // The field's height follows from the width alone, so once is enough.
-            let page = draw::lesson::Areas::new(lesson, area).page;
-            lesson.fit(page.width, page.height);
+            // First for the width, from which the page's height follows, then for the height.
+            for _ in 0..2 {
+                let page = draw::lesson::Areas::new(lesson, area).page;
+                lesson.fit(page.width, page.height);
+            }
         }
     }
 

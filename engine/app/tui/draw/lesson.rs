@@ -70,7 +70,9 @@ impl Areas {
         };
         let input_height = input::height(screen, body.width, body.height);
         let note_height = (notes(screen, body.width as usize).len() as u16).min(body.height / 2);
-        let page_height = body.height.saturating_sub(input_height + note_height);
+        let room = body.height.saturating_sub(input_height + note_height);
+        // The field stands right below a short page, where the eye is.
+        let page_height = room.min(screen.page.height() as u16 + 1);
         let page = Rect {
             height: page_height,
             ..body
@@ -276,20 +278,30 @@ fn keys(screen: &LessonScreen) -> Vec<Key> {
                 .field
                 .text()
                 .is_some_and(|text| !text.trim().is_empty());
-            keys.push(key("Enter", if typed { "answer" } else { next() }));
+            if typed || view.can.next {
+                keys.push(key("Enter", if typed { "answer" } else { next() }));
+            }
             if view.can.hint.is_some() {
                 keys.push(key("Ctrl-T", hint_label(view)));
             }
-            keys.push(key("↑↓", "scroll"));
-            keys.push(key("Esc", "leave field"));
-            return with_general(keys, &[("Ctrl-C", "quit"), ("F1", "help")]);
+            let rest = [
+                ("Esc", "leave field"),
+                ("F1", "help"),
+                ("Ctrl-C", "quit"),
+                ("↑↓", "scroll"),
+            ];
+            return with_general(keys, &rest);
         }
         (Focus::Editor, _) => {
             keys.push(key("Ctrl-S", "hand in"));
-            keys.push(key("Tab", "to the button"));
-            keys.push(key("PgUp/PgDn", "scroll"));
-            keys.push(key("Esc", "leave field"));
-            return with_general(keys, &[("Ctrl-C", "quit"), ("F1", "help")]);
+            let rest = [
+                ("Esc", "leave field"),
+                ("F1", "help"),
+                ("Ctrl-C", "quit"),
+                ("PgUp/PgDn", "scroll"),
+                ("Tab", "to the button"),
+            ];
+            return with_general(keys, &rest);
         }
         (Focus::Button, _) => {
             keys.push(key("Enter", "hand in"));
