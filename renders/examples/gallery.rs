@@ -89,6 +89,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let picture = renders::render(&fingerprint, &options, &AtomicBool::new(false))?;
         println!("{id}: {:?}", picture.report);
         std::fs::write(format!("{folder}/{id}.png"), picture.png())?;
+        if id == "double-division" {
+            let raw = renders::raw(&fingerprint, &options)?;
+            std::fs::write(format!("{folder}/{id}.exr"), raw.exr())?;
+        }
         let small = Options {
             size: 64,
             compact: true,

@@ -50,11 +50,12 @@ impl Axis {
             (low, high) = if log {
                 (low / 2.0, high * 2.0)
             } else {
-                (low - 0.5, high + 0.5)
+                let pad = 0.5 * low.abs().max(1.0);
+                (low - pad, high + pad)
             };
         } else if room && range.is_none() {
             if log {
-                let pad = (high / low).powf(0.04);
+                let pad = (0.04 * (high.ln() - low.ln())).exp();
                 (low, high) = (low / pad, high * pad);
             } else {
                 let pad = 0.05 * (high - low);
@@ -67,6 +68,12 @@ impl Axis {
                 high += pad;
             }
         }
+        // A range that overflows has no places in it, and neither has one below the smallest
+        // numbers.
+        let usable = (high - low).is_normal() && (!log || low.is_normal());
+        if !usable {
+            return None;
+        }
         Some(Self { low, high, log })
     }
 
@@ -76,7 +83,7 @@ impl Axis {
             if value <= 0.0 {
                 return f64::NAN;
             }
-            (value / self.low).ln() / (self.high / self.low).ln()
+            (value.ln() - self.low.ln()) / (self.high.ln() - self.low.ln())
         } else {
             (value - self.low) / (self.high - self.low)
         }
@@ -112,7 +119,7 @@ impl Axis {
             .unwrap_or(0) as usize;
         let first = (self.low / step - 1e-9).ceil() as i64;
         let last = (self.high / step + 1e-9).floor() as i64;
-        (first..=last.min(first + 200))
+        (first..=last.min(first.saturating_add(200)))
             .map(|i| {
                 let at = i as f64 * step;
                 Tick {
@@ -234,9 +241,35 @@ mod tests {
     fn an_axis_needs_a_value_it_can_show() {
         assert!(Axis::fit([f64::NAN].into_iter(), false, None, true).is_none());
         assert!(Axis::fit([-1.0, 0.0].into_iter(), true, None, true).is_none());
+        assert!(Axis::fit([-f64::MAX, f64::MAX].into_iter(), false, None, true).is_none());
         assert!(
             Axis::fit([3.0].into_iter(), false, None, true)
                 .is_some_and(|axis| axis.share(3.0) == 0.5)
         );
+    }
+    #[test]
+    fn no_range_makes_ticks_without_end() {
+        let extremes = [
+            -f64::MAX,
+            -1e300,
+            -1.0,
+            0.0,
+            1e-310,
+            1e-300,
+            1.0,
+            1.0 + f64::EPSILON,
+            1e20,
+            1e300,
+            f64::MAX,
+        ];
+        for low in extremes {
+            for high in extremes {
+                for log in [false, true] {
+                    let axis = Axis::fit([low, high].into_iter(), log, None, true);
+                    let ticks = axis.map_or(0, |axis| axis.ticks(8).len());
+                    assert!(ticks < 6000, "{low} to {high}: {ticks} ticks");
+                }
+            }
+        }
     }
 }

@@ -105,17 +105,22 @@ pub fn wrap(text: &str, size: f32, weight: Weight, max: f32) -> Vec<String> {
 
 /// `text`, cut with an ellipsis where it is wider than `max` pixels.
 pub fn shorten(text: &str, size: f32, weight: Weight, max: f32) -> String {
-    if width(text, size, weight) <= max {
+    let (glyphs, whole) = layout(text, size, weight);
+    if whole <= max {
         return text.to_owned();
     }
-    let mut kept: String = text.to_owned();
-    while kept.pop().is_some() {
-        let candidate = format!("{}…", kept.trim_end());
-        if width(&candidate, size, weight) <= max {
-            return candidate;
-        }
+    let room = max - width("…", size, weight);
+    // A glyph starts where the text before it ends: keep what ends within the room.
+    let kept = glyphs
+        .iter()
+        .skip(1)
+        .take_while(|glyph| glyph.x <= room)
+        .count();
+    if kept == 0 {
+        return String::new();
     }
-    String::new()
+    let kept: String = text.chars().take(kept).collect();
+    format!("{}…", kept.trim_end())
 }
 
 #[cfg(test)]

@@ -2,7 +2,8 @@
 //! skipped; with LOBE_REQUIRE_GPU=1 they fail instead.
 
 use formula::Library;
-use renders::{Backend, Error, Fingerprint, Options, Scene, gpu_adapter, raw};
+use renders::{Backend, Error, Fingerprint, Options, Scene, gpu_adapter, raw, render};
+use std::sync::atomic::AtomicBool;
 
 fn adapter() -> bool {
     match gpu_adapter() {
@@ -89,6 +90,55 @@ fn both_backends_agree() {
         "d_ggx() * v_ggx() * f_schlick(v_dot_h = n_dot_v) * n_dot_l",
         0.5,
         100.0,
+    );
+}
+
+/// The whole pictures: the same to the eye, nearly everywhere to the byte.
+#[test]
+fn both_backends_draw_the_same_picture() {
+    if !adapter() {
+        return;
+    }
+    let library = Library::new();
+    let right = formula::parse("d_ggx() * v_ggx() * f_schlick() * n_dot_l").expect("right");
+    let wrong = formula::parse("d_ggx() * v_ggx() * n_dot_l").expect("wrong");
+    let fingerprint = Fingerprint {
+        lesson: "test",
+        id: "gpu",
+        title: "The same".to_owned(),
+        caption: "from both".to_owned(),
+        library: &library,
+        right: &right,
+        wrong: &wrong,
+        scene: Scene {
+            roughness: 0.5,
+            f0: 0.3,
+            light_deg: 60.0,
+            others: Default::default(),
+        },
+    };
+    let draw = |backend| {
+        let options = Options {
+            size: 128,
+            backend,
+            ..Options::default()
+        };
+        render(&fingerprint, &options, &AtomicBool::new(false)).unwrap_or_else(|e| panic!("{e}"))
+    };
+    let (cpu, gpu) = (draw(Backend::Cpu), draw(Backend::Gpu));
+    assert_eq!((cpu.width, cpu.height), (gpu.width, gpu.height));
+    assert_eq!(gpu.report.backend, "gpu");
+    assert!(gpu.report.adapter.is_some());
+    let apart = cpu
+        .rgba
+        .iter()
+        .zip(&gpu.rgba)
+        .filter(|(a, b)| a.abs_diff(**b) > 2)
+        .count();
+    assert!(
+        apart * 1000 < cpu.rgba.len(),
+        "{apart} of {} bytes differ",
+        cpu.rgba.len()
     );
 }
 
