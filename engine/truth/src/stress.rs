@@ -319,7 +319,7 @@ fn draw_directions(term: &Term, precision: Precision, numbers: &mut Numbers, arg
 
 /// Whether three cosines among the arguments can belong to two directions and a normal, and
 /// whether vectors are of length 1.
-fn possible(term: &Term, precision: Precision, args: &[f64]) -> bool {
+pub(crate) fn possible(term: &Term, precision: Precision, args: &[f64]) -> bool {
     let get = |name| {
         term.params
             .iter()

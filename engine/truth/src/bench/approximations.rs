@@ -71,7 +71,7 @@ fn pair(effort: Effort, term: &Term, exact: &Term, convert: Convert) -> Vec<Row>
     let error = |f: fn(&[f32]) -> f32, args: &[f64], given: &[f64]| {
         let truth = (exact.f64)(&convert(args));
         let value = f64::from(f(&narrow(given)));
-        (value - truth).abs() / truth.abs().max(1e-30)
+        (value - truth).abs() / truth.abs().max(1e-3)
     };
     let own: Vec<Vec<f32>> = points[..256].iter().map(|args| narrow(args)).collect();
     let converted: Vec<Vec<f32>> = points[..256]

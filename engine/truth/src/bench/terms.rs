@@ -1,7 +1,7 @@
 //! Every term by itself: f64, f32 as printed, f32 stable.
 
 use super::{Effort, Errors, Numbers, Row, opaque, time};
-use crate::stress::{Precision, error, ulps};
+use crate::stress::{Precision, error, possible, ulps};
 use crate::{naive, value};
 use brdf::Term;
 
@@ -13,9 +13,14 @@ pub(super) fn rows(term: &'static Term, effort: Effort) -> Vec<Row> {
     let quadrature = term.cost > 10_000;
     let calls = if quadrature { 4 } else { CALLS };
     let mut draw = || -> Vec<f64> {
-        // Rounded, so that all variants get the same arguments.
-        let argument = |param: &brdf::Param| f64::from(numbers.between(param.range) as f32);
-        term.params.iter().map(argument).collect()
+        loop {
+            // Rounded, so that all variants get the same arguments.
+            let argument = |param: &brdf::Param| f64::from(numbers.between(param.range) as f32);
+            let args: Vec<f64> = term.params.iter().map(argument).collect();
+            if possible(term, Precision::Single, &args) {
+                return args;
+            }
+        }
     };
     let points: Vec<Vec<f64>> = (0..calls).map(|_| draw()).collect();
     let single: Vec<Vec<f32>> = points.iter().map(|args| narrow(args)).collect();
