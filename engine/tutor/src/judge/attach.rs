@@ -210,6 +210,19 @@ impl Reading {
                 return local(m);
             }
         }
+        // "too dark where it faces you": the place comes in a clause of its own.
+        let where_it_is = (found.end..found.end + 3).any(|i| {
+            self.tokens
+                .get(i)
+                .is_some_and(|t| t.is("where") || t.is("when"))
+                && self.sentence[i] == self.sentence[found.start]
+                && after.is_some_and(|m| {
+                    m.start > i && m.start <= i + 5 && self.sentence[m.start] == self.sentence[i]
+                })
+        });
+        if let Some(m) = after.filter(|_| where_it_is) {
+            return local(m);
+        }
         if list
             .get(next)
             .or(list.last())

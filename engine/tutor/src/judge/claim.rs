@@ -153,12 +153,25 @@ impl Reading {
     pub fn ideals(&self) -> Vec<bool> {
         let mut ideal = vec![false; self.clause.last().map_or(0, |last| last + 1)];
         let mut contrasts = false;
+        // Whether the clause after this one turns against it.
+        let mut turned = vec![false; ideal.len() + 1];
+        for at in 1..self.tokens.len() {
+            let turns = matches!(self.tokens[at].word.as_str(), "but" | "yet" | "instead");
+            if turns
+                && self.clause[at] != self.clause[at - 1]
+                && self.sentence[at] == self.sentence[at - 1]
+            {
+                turned[self.clause[at - 1]] = true;
+            }
+        }
         for (at, token) in self.tokens.iter().enumerate() {
             if at == 0 || self.clause[at] != self.clause[at - 1] {
                 contrasts = matches!(
                     token.word.as_str(),
-                    "while" | "whereas" | "although" | "though"
+                    "while" | "whereas" | "although" | "though" | "which" | "that"
                 );
+                contrasts |= self.tokens.get(at + 1).is_some_and(|next| next.is("which"));
+                contrasts |= turned[self.clause[at]];
             }
             let ought = matches!(token.word.as_str(), "should" | "ought" | "supposed");
             let really = self.tokens.get(at + 1).is_some_and(|next| {
@@ -214,8 +227,21 @@ impl Reading {
         for statement in self.statements.iter().filter(|s| !s.compared) {
             mentions[statement.sentence] += 1;
         }
+        let mut names = vec![false; words.len()];
+        for statement in &self.statements {
+            names[statement.sentence] |= statement.about.iter().any(Option::is_some);
+        }
+        let mut stops = vec![false; words.len()];
+        for (at, token) in self.tokens.iter().enumerate() {
+            stops[self.sentence[at]] |= matches!(token.kind, Kind::Comma | Kind::Break);
+        }
         (0..words.len())
-            .map(|s| mentions[s] >= 7 && glue[s] * 10 < words[s])
+            .map(|s| {
+                let long = mentions[s] >= 7 && glue[s] * 10 < words[s];
+                // "spike flat 1/pi infinity": no subject, no verb, no comma.
+                let bare = mentions[s] >= 4 && glue[s] == 0 && !names[s] && !stops[s];
+                long || bare
+            })
             .collect()
     }
 

@@ -67,6 +67,14 @@ pub fn denials(
                 || grammar::ends_denial(&word.word)
                 || (word.is("and") && clause[end] != clause[at]);
             let passed = wide && (word.kind == Kind::Comma || word.is("and"));
+            // "instead of a bright one you get a dull one": the clause goes on without a comma.
+            let subject = matches!(
+                word.word.as_str(),
+                "you" | "we" | "i" | "it" | "they" | "there" | "one"
+            );
+            if subject && !speech && report.is_some() && end > at + skip + 1 && word.spaced {
+                break;
+            }
             // "not so bright", "not even close".
             let opens = end == at + skip && word.kind == Kind::Word && !word.is("but");
             if hard || (soft && !passed && !opens && !inside[end]) {

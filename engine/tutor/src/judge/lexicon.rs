@@ -287,8 +287,14 @@ impl Lexicon {
     }
 
     /// The longest expressions that start at a token: their concepts and how many tokens
-    /// they take. Several concepts where a word has several senses.
-    pub fn longest(&self, forms: &[Form], at: usize) -> Option<(usize, Vec<Id>)> {
+    /// they take. Several concepts where a word has several senses. Entities of a class that
+    /// is not spoken of can be left out.
+    pub fn longest(
+        &self,
+        forms: &[Form],
+        at: usize,
+        without: Option<usize>,
+    ) -> Option<(usize, Vec<Id>)> {
         let form = &forms[at];
         // Rank: tokens, then words as they stand, so that "lower" is not the stem of "low".
         let mut best: Option<(usize, usize)> = None;
@@ -297,6 +303,11 @@ impl Lexicon {
         for key in keys.into_iter().flatten() {
             for &entry in self.by_stem.get(key).into_iter().flatten() {
                 let entry = &self.entries[entry];
+                if without
+                    .is_some_and(|class| self.concept(entry.concept).role == Role::Entity(class))
+                {
+                    continue;
+                }
                 let Some((taken, exact)) = matches(entry, forms, at) else {
                     continue;
                 };

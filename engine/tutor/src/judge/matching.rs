@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::lexicon::{CAUSE, CLASSES, Form, Id, Lexicon, MATERIAL, PLACE, QUANTITY, SURFACE};
-use super::parse::{Held, Reading, Statement};
+use super::parse::{About, Held, Reading, Statement};
 use super::phrase::{Atom, Ears, Hit, PERHAPS};
 
 /// How well a word's senses meet those of a phrase. The first sense of a word is the one
@@ -48,6 +48,37 @@ impl Atom {
         }
         for statement in reading.statements.iter().filter(|s| !s.void) {
             let mut score = self.polarity(lexicon, statement, ears, contrary);
+            // "A weak lamp cannot make the rim bright": so something else does.
+            let of_artist = statement.about[CAUSE].as_ref().is_some_and(|about| {
+                about.held >= Held::Inherited
+                    && about
+                        .concepts
+                        .iter()
+                        .any(|&id| lexicon.concept(id).name == "artist")
+            });
+            let elsewhere = of_artist
+                && statement.denied
+                && !ears.strict
+                && !contrary
+                && self.about[CAUSE].is_empty();
+            if elsewhere && !self.about[PLACE].is_empty() {
+                let claimed = Statement {
+                    denied: false,
+                    about: without_cause(statement),
+                    ..statement.clone()
+                };
+                score = 0.85
+                    * self.polarity(lexicon, &claimed, ears, false)
+                    * self.topic(lexicon, &claimed, ears);
+                let best: &mut Hit = hits.entry(statement.sentence).or_default();
+                if score > best.score && score >= PERHAPS {
+                    *best = Hit {
+                        score,
+                        range: quote(reading, statement),
+                    };
+                }
+                continue;
+            }
             if score < PERHAPS {
                 continue;
             }
@@ -296,6 +327,12 @@ fn is_highlight(lexicon: &Lexicon, statement: &Statement, held: Held) -> bool {
                 .iter()
                 .any(|&id| lexicon.concept(id).name == "highlight")
     })
+}
+
+fn without_cause(statement: &Statement) -> [Option<About>; CLASSES] {
+    let mut about = statement.about.clone();
+    about[CAUSE] = None;
+    about
 }
 
 /// Quantities that are put in, not what comes out.

@@ -112,23 +112,15 @@ pub struct Match {
 /// Reads tokens.
 pub fn read(lexicon: &Lexicon, tokens: Vec<Token>, setting: &Setting, mute: &[bool]) -> Reading {
     let forms: Vec<Form> = tokens.iter().map(|token| lexicon.form(token)).collect();
-    let mut matches = find(lexicon, &tokens, &forms);
+    // Where the question names no artist, a lamp is a lamp.
+    let question_known = setting.order.iter().any(|order| !order.is_empty());
+    let artist = lexicon
+        .id("artist")
+        .is_some_and(|artist| setting.order[CAUSE].contains(&artist));
+    let without = (question_known && !artist).then_some(CAUSE);
+    let mut matches = find(lexicon, &tokens, &forms, without);
     let (clause, sentence) = clauses(lexicon, &tokens, &matches);
     let denied = denials(lexicon, &tokens, &matches, &clause, &sentence);
-    let question_known = setting.order.iter().any(|order| !order.is_empty());
-    if question_known
-        && !lexicon
-            .id("artist")
-            .is_some_and(|artist| setting.order[CAUSE].contains(&artist))
-    {
-        // Where the question names no artist, a lamp is a lamp.
-        for found in &mut matches {
-            found
-                .concepts
-                .retain(|&id| lexicon.concept(id).role != Role::Entity(CAUSE));
-        }
-        matches.retain(|found| !found.concepts.is_empty());
-    }
     suppose(lexicon, &tokens, &mut matches, &sentence, setting);
     resolve_ordinals(lexicon, &tokens, &mut matches, setting);
     let mut heard = vec![false; tokens.len()];
@@ -154,23 +146,26 @@ pub fn read(lexicon: &Lexicon, tokens: Vec<Token>, setting: &Setting, mute: &[bo
     reading
 }
 
-fn find(lexicon: &Lexicon, tokens: &[Token], forms: &[Form]) -> Vec<Match> {
+fn find(lexicon: &Lexicon, tokens: &[Token], forms: &[Form], without: Option<usize>) -> Vec<Match> {
     let mut out = Vec::new();
     let mut at = 0;
     while at < tokens.len() {
         let found = matches!(tokens[at].kind, Kind::Word | Kind::Value | Kind::Op)
-            .then(|| lexicon.longest(forms, at))
+            .then(|| lexicon.longest(forms, at, without))
             .flatten();
         let Some((taken, concepts)) = found else {
             at += 1;
             continue;
         };
         // "the same normal" is not "the same".
-        let article = matches!(tokens[at].word.as_str(), "the" | "a" | "an");
+        let article = matches!(
+            tokens[at].word.as_str(),
+            "the" | "a" | "an" | "way" | "far" | "much"
+        );
         if article
             && at + 1 < tokens.len()
             && lexicon
-                .longest(forms, at + 1)
+                .longest(forms, at + 1, without)
                 .is_some_and(|(further, _)| further >= taken)
         {
             at += 1;
@@ -200,7 +195,7 @@ fn embedded(lexicon: &Lexicon, forms: &[Form], start: usize, end: usize, out: &m
     for at in start..end {
         // The whole expression itself is not looked for again.
         let within = if at == start { end - 1 } else { end };
-        let Some((taken, concepts)) = lexicon.longest(&forms[..within], at) else {
+        let Some((taken, concepts)) = lexicon.longest(&forms[..within], at, None) else {
             continue;
         };
         let specific = |id: &Id| match lexicon.concept(*id).role {

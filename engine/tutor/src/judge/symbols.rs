@@ -133,6 +133,10 @@ fn is_link(word: &str) -> bool {
     matches!(
         word,
         "and"
+            | "you"
+            | "we"
+            | "i"
+            | "d"
             | "at"
             | "for"
             | "in"
