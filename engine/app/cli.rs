@@ -151,7 +151,7 @@ pub struct Mark {
 #[derive(Debug, Args)]
 pub struct Judge {
     /// Id of the question, for example smith-g2/explain-3
-    #[arg(required_unless_present = "batch")]
+    #[arg(required_unless_present_any = ["batch", "evaluate"])]
     pub item: Option<String>,
     /// Print JSON
     #[arg(long)]
@@ -159,6 +159,13 @@ pub struct Judge {
     /// Read JSONL `{"id","item","text"}` from FILE (`-`: standard input); prints JSON
     #[arg(long, value_name = "FILE", conflicts_with = "item")]
     pub batch: Option<PathBuf>,
+    /// Compare the judge with a teacher's marks: JSONL `{"id","item","writer","text","met",
+    /// "misconceptions","verdict"}`
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["item", "batch"])]
+    pub evaluate: Option<PathBuf>,
+    /// With --evaluate: the figures of each writer too
+    #[arg(long, requires = "evaluate")]
+    pub by_writer: bool,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]

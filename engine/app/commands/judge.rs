@@ -39,6 +39,9 @@ struct Answer {
 
 pub fn run(folders: &Folders, args: &Judge) -> Result<Done, Failure> {
     let shelf = super::shelf(folders)?;
+    if let Some(path) = &args.evaluate {
+        return super::evaluate::run(&shelf, path, args);
+    }
     match (&args.item, &args.batch) {
         (_, Some(path)) => batch(&shelf, path),
         (Some(item), None) => one(&shelf, item, args.json),

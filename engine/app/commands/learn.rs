@@ -5,6 +5,7 @@ use std::io::{self, IsTerminal as _};
 
 use crate::cli::{Folders, Json, Learn};
 use crate::exit::{Done, Failure};
+use crate::lessons::Shelf;
 use crate::sitting::{Sitting, Wish};
 use crate::{plain, tui};
 
@@ -14,13 +15,14 @@ pub fn tutor(folders: &Folders) -> Result<Done, Failure> {
         return super::list::run(folders, Json::default());
     }
     // What is broken is said on the screen, not above it.
-    let shelf = crate::lessons::Shelf::open(folders.lessons.as_deref())?;
+    let shelf = Shelf::open(folders.lessons.as_deref())?;
     tui::run(&shelf, &super::store(folders)?, tui::Open::List)
 }
 
 /// One lesson.
 pub fn lesson(folders: &Folders, args: &Learn) -> Result<Done, Failure> {
-    let shelf = super::shelf(folders)?;
+    // Only the lesson asked for is worth a word here; `lobe list` names every broken file.
+    let shelf = Shelf::open(folders.lessons.as_deref())?;
     let store = super::store(folders)?;
     let lesson = shelf.find(&args.lesson)?;
     let wish = Wish {

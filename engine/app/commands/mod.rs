@@ -3,6 +3,7 @@
 mod check;
 mod doctor;
 mod eval;
+mod evaluate;
 mod exercise;
 mod judge;
 mod learn;
