@@ -163,7 +163,7 @@ impl<'l> Plan<'l> {
         let library = &self.lesson.library;
         let uses: Vec<_> = steps.iter().map(|s| library.uses(&s.is.expr)).collect();
         for (made_in, step) in steps.iter().enumerate() {
-            for mutant in library.mutants(&step.is.expr) {
+            for mutant in library.mutants_given(&step.is.expr, names.before(made_in)) {
                 let (edited_library, edited) = library.apply(&step.is.expr, &mutant);
                 let Ok(first) = edited_library.compile(&edited, names.before(made_in)) else {
                     continue;
