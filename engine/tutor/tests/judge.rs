@@ -78,6 +78,15 @@ fn agrees_with_a_teacher() {
     assert!(figures.mean_f1.expect("criteria") >= 0.85);
 }
 
+/// Answers in other voices, written to find the judge's mistakes: verdicts only, by one hand.
+#[test]
+fn follows_other_voices() {
+    let figures = figures(&marked(include_str!("answers/written.jsonl")));
+    assert!(figures.kappa.expect("several verdicts") >= 0.85);
+    assert!(figures.coverage.value().expect("answers") >= 0.92);
+    assert!(figures.false_pass.value().expect("answers") <= 0.02);
+}
+
 /// The writers set aside before any answer was read. Run once, when the judge is done:
 /// `cargo test -p tutor --test judge -- --ignored --nocapture`.
 #[test]

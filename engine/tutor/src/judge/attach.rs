@@ -134,7 +134,7 @@ impl Reading {
             .iter()
             .take(4)
             .find(|m| m.start >= found.end);
-        let before = self.before(list, next, clause, found.start);
+        let before = self.before(list, next);
         let local =
             |m: &Mention| Some(self.with_partner(list, self.specific(list, m), Held::Local));
         let after_here = after.filter(|m| self.clause[m.start] == clause);
@@ -301,31 +301,22 @@ impl Reading {
     }
 
     /// The last mention before, leaving out what stands behind "than".
-    fn before<'a>(
-        &self,
-        list: &'a [Mention],
-        next: usize,
-        clause: usize,
-        _at: usize,
-    ) -> Option<&'a Mention> {
-        let mut index = next;
-        for _ in 0..3 {
-            index = index.checked_sub(1)?;
-            let m = &list[index];
-            let behind_than = (m.start.saturating_sub(3)..m.start).any(|i| {
-                (self.tokens[i].is("than")
-                    || self.tokens[i].is("against")
-                    || self.tokens[i].is("compared"))
-                    && self.clause[i] == self.clause[m.start]
-            });
-            if !(behind_than && index > 0)
-                || self.clause[m.start] != clause
-                    && self.sentence[m.start] != self.sentence.get(m.end).copied().unwrap_or(0)
-            {
-                return Some(m);
-            }
-        }
-        list.get(next.checked_sub(1)?)
+    fn before<'a>(&self, list: &'a [Mention], next: usize) -> Option<&'a Mention> {
+        let behind_than = |m: &Mention| {
+            (m.start.saturating_sub(3)..m.start).any(|i| {
+                let compares = matches!(
+                    self.tokens[i].word.as_str(),
+                    "than" | "against" | "compared"
+                );
+                compares && self.clause[i] == self.clause[m.start]
+            })
+        };
+        let nearest = list[..next.min(list.len())].iter().rev();
+        nearest
+            .clone()
+            .take(3)
+            .find(|m| !behind_than(m))
+            .or_else(|| nearest.clone().next())
     }
 
     /// "the rim and the centre": both.

@@ -123,11 +123,7 @@ pub fn lexicon() -> &'static Lexicon {
 
 /// The stem of an English word.
 pub fn stem(word: &str) -> String {
-    thread_free_stemmer().stem(word).into_owned()
-}
-
-fn thread_free_stemmer() -> Stemmer {
-    Stemmer::create(Algorithm::English)
+    Stemmer::create(Algorithm::English).stem(word).into_owned()
 }
 
 impl Lexicon {

@@ -12,19 +12,15 @@ fn senses(wanted: &[Id], said: &[Id], ears: Ears, as_said: impl Fn(Id) -> Option
     let mut best: f64 = 0.0;
     for (i, &id) in said.iter().enumerate() {
         let Some(id) = as_said(id) else { continue };
-        for (j, &sought) in wanted
-            .iter()
-            .enumerate()
-            .filter(|&(_, &sought)| sought == id)
-        {
-            debug_assert_eq!(sought, id);
-            best = best.max(match (i, j) {
-                (0, 0) => 1.0,
-                (_, 0) if ears.strict => 0.7,
-                (_, 0) => 0.95,
-                _ => 0.45,
-            });
-        }
+        let Some(sought) = wanted.iter().position(|&sought| sought == id) else {
+            continue;
+        };
+        best = best.max(match (i, sought) {
+            (0, 0) => 1.0,
+            (_, 0) if ears.strict => 0.7,
+            (_, 0) => 0.95,
+            _ => 0.45,
+        });
     }
     best
 }
