@@ -3,11 +3,11 @@
 
 use crate::Fingerprint;
 use crate::error::Error;
-use crate::plan::Plan;
+use crate::plan::{Plan, folded};
 use crate::sample::Samples;
 use crate::scene::VARYING;
 use crate::shade::Values;
-use formula::Wgsl;
+use formula::{Expr, Wgsl};
 use std::fmt::Write as _;
 
 /// Samples in one dispatch: 16 MiB of input, well within every adapter's limits.
@@ -251,14 +251,21 @@ fn shader(fingerprint: &Fingerprint<'_>, plan: &Plan) -> Result<String, Error> {
         .into_iter()
         .chain(constants.iter().map(|(name, _)| name.as_str()))
         .collect();
-    let compile = |which, expr| {
+    let compile = |which, expr: &Expr| {
         fingerprint
             .library
             .wgsl(expr, &inputs)
             .map_err(|error| Error::Formula { which, error })
     };
-    let right = compile("right", fingerprint.right)?;
-    let second = compile("wrong", plan.ratio.as_ref().unwrap_or(fingerprint.wrong))?;
+    let fold = |expr: &Expr| match plan.fold {
+        true => folded(fingerprint, expr),
+        false => expr.clone(),
+    };
+    let right = compile("right", &fold(fingerprint.right))?;
+    let second = compile(
+        "wrong",
+        &fold(plan.ratio.as_ref().unwrap_or(fingerprint.wrong)),
+    )?;
     let mut source = Wgsl::functions_of(&[&right, &second]);
     source.push_str(
         "@group(0) @binding(0) var<storage, read> points: array<vec4<f32>>;\n\
@@ -290,7 +297,7 @@ mod tests {
 
     /// The whole shader of a fingerprint passes naga's validation: no adapter is needed for that.
     #[track_caller]
-    fn check_valid(right: &str, wrong: &str, skip: bool) {
+    fn check_valid(right: &str, wrong: &str, skip: bool) -> String {
         let library = formula::Library::new();
         let parse = |text| formula::parse(text).unwrap_or_else(|e| panic!("{text}: {e}"));
         let (right, wrong) = (parse(right), parse(wrong));
@@ -322,6 +329,7 @@ mod tests {
         validator
             .validate(&module)
             .unwrap_or_else(|e| panic!("{}", e.emit_to_string(&source)));
+        source
     }
 
     #[test]

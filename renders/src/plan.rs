@@ -12,6 +12,8 @@ pub(crate) struct Plan {
     pub mirror: bool,
     /// Shade only pixels in the lit and visible part of the sphere.
     pub lens: bool,
+    /// Evaluate calls that are constant over the picture beforehand.
+    pub fold: bool,
     /// Fill the column of the azimuth.
     pub azimuth: bool,
     /// `wrong / right` after what both have in common has cancelled: the wrong value is then the
@@ -51,6 +53,7 @@ impl Plan {
         let mut plan = Self {
             mirror: true,
             lens: true,
+            fold: true,
             ..Self::default()
         };
         plan.azimuth = [right, wrong]
@@ -71,12 +74,7 @@ impl Plan {
         let of_right = calls(right);
         let of_wrong = calls(plan.ratio.as_ref().unwrap_or(wrong));
         for call in of_right.union(&of_wrong) {
-            let constant = formula::parse(call).is_ok_and(|expr| {
-                !library
-                    .needs(&expr)
-                    .iter()
-                    .any(|name| VARYING.contains(&name.as_str()))
-            });
+            let constant = formula::parse(call).is_ok_and(|expr| constant(fingerprint, &expr));
             if constant {
                 plan.skipped.push(format!(
                     "{call}: the same over the whole picture, evaluated once"
@@ -132,4 +130,52 @@ pub(crate) fn program(
         .chain(constants.iter().map(|(name, _)| name.as_str()))
         .collect();
     fingerprint.library.compile(expr, &inputs)
+}
+
+/// The formula with its constant calls evaluated: a shader then holds their values, as the CPU's
+/// program computes them once a block.
+pub(crate) fn folded(fingerprint: &Fingerprint<'_>, expr: &Expr) -> Expr {
+    let values = fingerprint.scene.constants().into_iter().collect();
+    fold(fingerprint, expr, &values)
+}
+
+fn fold(fingerprint: &Fingerprint<'_>, expr: &Expr, values: &formula::Values) -> Expr {
+    let inner = |expr: &Expr| Box::new(fold(fingerprint, expr, values));
+    let node = match &expr.node {
+        Node::Number { .. } | Node::Name(_) => return expr.clone(),
+        Node::Call { .. } => {
+            // A call that has no value, or varies, stays what it is.
+            let value = match constant(fingerprint, expr) {
+                true => fingerprint.library.eval(expr, values).ok(),
+                false => None,
+            };
+            return value
+                .filter(|value| value.is_finite())
+                .map_or_else(|| expr.clone(), Expr::number);
+        }
+        Node::Neg(operand) => Node::Neg(inner(operand)),
+        Node::Binary { op, left, right } => Node::Binary {
+            op: *op,
+            left: inner(left),
+            right: inner(right),
+        },
+        Node::Compare { op, left, right } => Node::Compare {
+            op: *op,
+            left: inner(left),
+            right: inner(right),
+        },
+    };
+    Expr {
+        node,
+        span: expr.span,
+    }
+}
+
+/// Whether a formula has one value over the whole picture.
+fn constant(fingerprint: &Fingerprint<'_>, expr: &Expr) -> bool {
+    !fingerprint
+        .library
+        .needs(expr)
+        .iter()
+        .any(|name| VARYING.contains(&name.as_str()))
 }
