@@ -30,6 +30,8 @@ pub struct LessonScreen {
     pub focus: Focus,
     pub page: Page,
     pub scroll: usize,
+    /// The line that came new and is to be seen, however high the window turns out to be.
+    follow: Option<usize>,
     /// Rows in which the page is seen.
     pub window: usize,
     /// Said before the lesson starts, until a key is pressed.
@@ -60,6 +62,7 @@ impl LessonScreen {
             focus: field.focus(),
             page: Page::new(&shown.blocks, 80, palette),
             scroll: 0,
+            follow: None,
             window: 1,
             greeting,
             leaving_unsaved: None,
@@ -83,7 +86,7 @@ impl LessonScreen {
             self.laid_out_for = width;
         }
         self.window = height as usize;
-        self.scroll = self.scroll.min(self.last_scroll());
+        self.scroll = self.follow.unwrap_or(self.scroll).min(self.last_scroll());
     }
 
     fn last_scroll(&self) -> usize {
@@ -120,6 +123,7 @@ impl LessonScreen {
     /// What an action of the learner does.
     pub fn act(&mut self, action: Action) -> Flow {
         self.greeting.clear();
+        self.follow = None;
         if self.leaving_unsaved.is_some() && !matches!(action, Action::Quit | Action::QuitAll) {
             self.leaving_unsaved = None;
             return Flow::Stay;
@@ -323,14 +327,9 @@ impl LessonScreen {
         }
         if other_screen || view.blocks != before.blocks {
             self.page = Page::new(&view.blocks, self.laid_out_for, self.palette);
-            self.scroll = if other_screen {
-                0
-            } else {
-                // What is new is in view; what was read may scroll away.
-                self.page
-                    .start_of(before.blocks.len())
-                    .min(self.last_scroll())
-            };
+            // What is new is in view; what was read may scroll away.
+            self.follow = (!other_screen).then(|| self.page.start_of(before.blocks.len()));
+            self.scroll = self.follow.unwrap_or(0).min(self.last_scroll());
         }
     }
 }
