@@ -310,11 +310,17 @@ fn keys(screen: &LessonScreen) -> Vec<Key> {
         (Focus::Options, Field::Choice { .. }) => {
             keys.push(key("↑↓", "choose"));
             keys.push(key("Enter", "answer"));
+            if view.can.next {
+                keys.push(key("Esc Enter", next()));
+            }
         }
         (Focus::Options, Field::Order(order)) => {
             keys.push(key("↑↓", if order.grabbed { "move it" } else { "choose" }));
             keys.push(key("Space", if order.grabbed { "drop" } else { "grab" }));
             keys.push(key("Enter", "hand in"));
+            if view.can.next {
+                keys.push(key("Esc Enter", next()));
+            }
         }
         (Focus::Options, _) => {
             keys.push(key("y/n", "said it or not"));
