@@ -301,7 +301,7 @@ pub fn short(value: f64) -> String {
     }
     let size = value.abs();
     if !(1e-4..1e5).contains(&size) {
-        return format!("{value:.1e}");
+        return format!("{value:.1e}").replace(".0e", "e");
     }
     let decimals = (2 - size.log10().floor() as i32).clamp(0, 6) as usize;
     let text = format!("{value:.decimals$}");
@@ -515,6 +515,7 @@ mod tests {
         check_short(1.0, "1");
         check_short(100.0, "100");
         check_short(0.333333, "0.333");
-        check_short(1e-7, "1.0e-7");
+        check_short(1e-7, "1e-7");
+        check_short(-2.5e-6, "-2.5e-6");
     }
 }
