@@ -28,7 +28,7 @@ pub fn hint(
         Task::FindTheMistake { .. } if step == Some("line") => wrong_line(lesson, exercise, draw),
         Task::FindTheMistake { .. } => answer(lesson, exercise, draw, None),
         Task::Choice { .. } | Task::Order { .. } => {
-            let mut blocks = vec![Block::Paragraph(vec![Inline::Text(right_words(draw))])];
+            let mut blocks = right_words(draw);
             blocks.extend(after_right(lesson, exercise, draw, step));
             blocks
         }
@@ -36,17 +36,21 @@ pub fn hint(
 }
 
 /// What is right, of a choice or an order.
-fn right_words(draw: &Draw) -> String {
+fn right_words(draw: &Draw) -> Vec<Block> {
+    let paragraph = |words: String| vec![Block::Paragraph(vec![Inline::Text(words)])];
+    let text = |place: &usize| draw.shown.get(*place).map_or("", String::as_str);
     match &draw.truth {
-        Truth::Choice(place) => {
-            let text = draw.shown.get(*place).map_or("", String::as_str);
-            format!("It is {}: {text}", place + 1)
-        }
+        Truth::Choice(place) => paragraph(format!("It is {}: {}", place + 1, text(place))),
         Truth::Order(places) => {
-            let numbers: Vec<String> = places.iter().map(|place| (place + 1).to_string()).collect();
-            format!("The order is {}.", numbers.join(" "))
+            let item = |place| vec![Inline::Text(str::to_owned(text(place)))];
+            let mut blocks = paragraph("The right order:".to_owned());
+            blocks.push(Block::List {
+                ordered: true,
+                items: places.iter().map(item).collect(),
+            });
+            blocks
         }
-        Truth::Number(value) => format!("It is {}.", crate::prose::shortest(*value)),
+        Truth::Number(value) => paragraph(format!("It is {}.", crate::prose::shortest(*value))),
     }
 }
 
