@@ -116,7 +116,7 @@ impl Session {
             session.pending.push(event);
             let what = if changed { "lesson file" } else { "program" };
             format!(
-                "The {what} changed since you left, so {} starts again. What you did before it is kept.",
+                "The {what} changed since you left, so you begin {} again. What you did before it is kept.",
                 session.stage.phrase()
             )
         });

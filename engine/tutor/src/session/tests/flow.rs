@@ -160,7 +160,7 @@ fn a_changed_lesson_says_so_once() {
     assert_eq!(
         notice.as_deref(),
         Some(
-            "The lesson file changed since you left, so the worked example starts again. What \
+            "The lesson file changed since you left, so you begin the worked example again. What \
              you did before it is kept."
         )
     );
