@@ -163,10 +163,13 @@ fn said(lesson: &Lesson, exercise: &Exercise, problem: &Problem, turn: &Turn) ->
             named: by_author,
             says,
         } => {
-            let mut answer = vec![text("You: "), Inline::Code(one_line(typed))];
-            if let Some(meant) = meant(exercise, problem, typed) {
-                answer.push(text(format!(", {meant}")));
-            }
+            let answer = vec![
+                text("You: "),
+                match meant(exercise, problem, typed) {
+                    Some(meant) => text(meant),
+                    None => Inline::Code(one_line(typed)),
+                },
+            ];
             let (tone, title) = title(result, mistake.is_some(), *by_author);
             let mut blocks = vec![Block::Paragraph(answer)];
             if result == "correct" {
@@ -210,7 +213,7 @@ fn title(result: &str, mistake: bool, by_author: bool) -> (Tone, &'static str) {
     match result {
         "correct" => (Tone::Good, "Correct"),
         "carried" => (Tone::Near, "Right, given the earlier slip"),
-        "precision" => (Tone::Near, "The right value, too few digits"),
+        "precision" => (Tone::Near, "Nearly"),
         "mistake" if by_author => (Tone::Bad, "A known mistake"),
         "mistake" if mistake => (Tone::Bad, "A likely slip"),
         "invalid" => (Tone::Info, "Not counted"),
