@@ -160,13 +160,14 @@ fn check(step: Option<&str>, earlier: &[(&str, &str)], answer: &str, result: &st
 fn answers_are_marked_in_order() {
     // Invalid costs nothing.
     check(None, &[], "", "invalid", "Type a number");
-    check(None, &[], "abc", "invalid", "");
+    check(None, &[], "abc", "invalid", "Unknown name \"abc\"");
+    check(None, &[], "cos 3", "invalid", "");
     check(
         None,
         &[],
         "v_ggx(n_dot_l = 0.6, n_dot_v = 0.8, alpha = 0.16)",
         "invalid",
-        "",
+        "v_ggx(…) would give the answer away; put numbers in and work it out.",
     );
     check(None, &[], "visibility()", "invalid", "");
     check(None, &[], "1/0", "invalid", "");
@@ -266,12 +267,17 @@ fn two_unnamed_mistakes_with_one_number_are_asked_about() {
             step: "v".to_owned(),
             value: 0.7,
             named: false,
+            made_before: id == "two",
             says: format!("Mistake {id}."),
         });
     }
     let found = mark(&lesson, exercise, &drawn, None, "0.7", &BTreeMap::new());
     assert_eq!((found.result(), found.mistake()), ("mistake", None));
     assert!(found.says().contains("Mistake one.") && found.says().contains("Mistake two."));
+    // Of two steps before, one was right: the slip was not made there.
+    let earlier = BTreeMap::from([("root_v".to_owned(), "0.8057".to_owned())]);
+    let found = mark(&lesson, exercise, &drawn, None, "0.7", &earlier);
+    assert_eq!(found.mistake(), Some("one"), "{found:?}");
 }
 
 #[test]
@@ -320,6 +326,14 @@ fn words_are_marked() {
         marked("fixture/order", None, &numbers.concat()),
         Marking::Correct
     );
+    let exercise = lesson.exercise("fixture/order").expect("the exercise");
+    let order = drawn(&lesson, "fixture/order", 3);
+    let shown = hint(&lesson, exercise, &order, None, 3);
+    let Some(tutor::prose::Block::List { items, .. }) = shown.get(1) else {
+        panic!("the right order as a list: {shown:?}");
+    };
+    let first = &order.shown[places[0]];
+    assert_eq!(items[0], [tutor::prose::Inline::Text(first.clone())]);
     assert_eq!(marked("fixture/order", None, "1 2 3").result(), "wrong");
     assert_eq!(marked("fixture/order", None, "1 1 2").result(), "invalid");
 

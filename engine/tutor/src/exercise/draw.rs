@@ -174,6 +174,7 @@ impl Plan<'_> {
                     step: step.name.to_owned(),
                     value,
                     named: mistake.named,
+                    made_before: mistake.made_in < index,
                     says,
                 });
             }
@@ -283,6 +284,7 @@ impl Plan<'_> {
             step: "answer".to_owned(),
             value: as_shown,
             named: true,
+            made_before: false,
             says: "That is the number as it stands there, with the wrong line still in it."
                 .to_owned(),
         }];

@@ -231,7 +231,7 @@ impl Marker<'_> {
         }
         self.too_few_digits(answer, value)
             .or_else(|| self.carried(value, followed))
-            .or_else(|| self.known_mistake(value))
+            .or_else(|| self.known_mistake(value, followed))
             .or_else(|| self.off_by_a_factor(value))
             .unwrap_or_else(|| self.wrong(value))
     }
@@ -265,10 +265,7 @@ impl Marker<'_> {
         match value {
             Ok(value) if value.is_finite() => Ok(value),
             Ok(_) => Err("This has no finite value.".to_owned()),
-            Err(error) => Err(match error.help {
-                Some(help) => format!("{} ({help})", sentence(&error.message)),
-                None => sentence(&error.message),
-            }),
+            Err(error) => Err(sentence(&error.to_string())),
         }
     }
 
@@ -333,13 +330,16 @@ impl Marker<'_> {
         })
     }
 
-    fn known_mistake(&self, value: f64) -> Option<Marking> {
+    fn known_mistake(&self, value: f64, followed: Option<(f64, Option<usize>)>) -> Option<Marking> {
         let distance = |it: &Mistake| (value - it.value).abs() / it.value.abs();
+        // Whoever had the earlier steps right is not asked about slips in them.
+        let right_so_far = matches!(followed, Some((_, None)));
         let mut met: Vec<&Mistake> = self
             .draw
             .mistakes
             .iter()
             .filter(|it| it.step == self.step && self.near(value, it.value))
+            .filter(|it| it.named || !(it.made_before && right_so_far))
             .collect();
         met.sort_by(|a, b| {
             (!a.named, distance(a))
@@ -408,7 +408,19 @@ impl Marker<'_> {
     }
 }
 
-/// A sentence: a capital letter first, a full stop last.
+/// A sentence: a capital letter first, unless it begins with a name of the formula language,
+/// and a full stop or question mark last.
 fn sentence(text: &str) -> String {
-    format!("{}.", crate::load::capitalised(text))
+    let first: String = text
+        .chars()
+        .take_while(|c| c.is_alphanumeric() || *c == '_')
+        .collect();
+    let names_code =
+        first == "pi" || first.contains('_') || formula::builtin_names().any(|name| name == first);
+    let text = match names_code {
+        true => text.trim().trim_end_matches('.').to_owned(),
+        false => crate::load::capitalised(text),
+    };
+    let end = if text.ends_with('?') { "" } else { "." };
+    format!("{text}{end}")
 }

@@ -76,6 +76,8 @@ pub struct Mistake {
     pub value: f64,
     /// Whether the author named it.
     pub named: bool,
+    /// Whether it was made before that step, and only shows in it.
+    pub made_before: bool,
     /// What the tutor says (Markdown, templates filled).
     pub says: String,
 }
