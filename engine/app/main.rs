@@ -21,6 +21,14 @@ use std::process::ExitCode;
 use clap::Parser as _;
 
 fn main() -> ExitCode {
+    quieten_graphics_driver();
     let cli = cli::Cli::parse();
     exit::code_of(commands::run(cli))
+}
+
+/// Mesa's layer that chooses a device looks for a display and complains on standard error where
+/// there is none, unless it is told to stay out of the way.
+fn quieten_graphics_driver() {
+    // SAFETY: this is the first thing the program does: no other thread reads the environment.
+    unsafe { std::env::set_var("NODEVICE_SELECT", "1") };
 }
