@@ -29,18 +29,19 @@ fn term(tokens: &[Token], at: usize, depth: usize) -> Option<(f64, usize)> {
         let divide = is(tokens, next, &["/", "over"])
             || (is(tokens, next, &["by", "on"]) && number(tokens, next.wrapping_sub(1)).is_some());
         let divided_by = is(tokens, next, &["divided"]) && is(tokens, next + 1, &["by", "through"]);
+        let divided = is(tokens, next, &["divided"]) && number(tokens, next + 1).is_some();
         let times = is(tokens, next, &["*"]);
         let implicit = is(tokens, next, &["(", "pi"]) && !tokens[next].spaced && next > at;
         let skip = match () {
             () if divided_by => 2,
-            () if divide || times => 1,
+            () if divide || divided || times => 1,
             () if implicit => 0,
             () => break,
         };
         let Some((value, end)) = power(tokens, next + skip, depth) else {
             break;
         };
-        total = if divide || divided_by {
+        total = if divide || divided || divided_by {
             total / value
         } else {
             total * value

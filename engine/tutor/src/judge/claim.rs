@@ -237,7 +237,7 @@ impl Reading {
         }
         (0..words.len())
             .map(|s| {
-                let long = mentions[s] >= 7 && glue[s] * 10 < words[s];
+                let long = mentions[s] >= 7 && glue[s] == 0;
                 // "spike flat 1/pi infinity": no subject, no verb, no comma.
                 let bare = mentions[s] >= 4 && glue[s] == 0 && !names[s] && !stops[s];
                 long || bare

@@ -55,7 +55,7 @@ trail train trial
 steal steel steep steer stem step
 moon noon soon mood moody
 grain grains green great greet
-inner under upper outer other
+inner under upper outer other pitch pitched match batch catch
 files string block contributors build crates contract parameter pointer simple published lesser incidental connection
 allow arguments property multiple clone contributor slice stack bench party master currently grant overlay
 whatsoever known remote march wrapper apple colon martin detection older chars exclusive token sizes

@@ -181,7 +181,7 @@ impl Atom {
                 None => match class {
                     PLACE => 0.55,
                     SURFACE if ears.strict => 0.45,
-                    QUANTITY if self.is_size(lexicon) => 0.5,
+                    QUANTITY if self.is_size(lexicon) => 0.45,
                     CAUSE if is(wanted, "artist") => 0.5,
                     SURFACE | CAUSE => 0.8,
                     QUANTITY

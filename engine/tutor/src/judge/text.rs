@@ -431,6 +431,14 @@ impl Reader<'_> {
 
     fn word(&mut self) {
         let from = self.at;
+        let abbreviated = |a: char, b: char| {
+            let at = |i: usize| self.peek(i).map(|c| c.to_ascii_lowercase());
+            [at(0), at(1), at(2), at(3)] == [Some(a), Some('.'), Some(b), Some('.')]
+        };
+        if abbreviated('i', 'e') || abbreviated('e', 'g') {
+            self.at += 4;
+            return self.push("namely", Kind::Word, from);
+        }
         let mut text = String::new();
         while let Some(c) = self.peek(0) {
             if greek(c).is_some() || superscript(c).is_some() {
