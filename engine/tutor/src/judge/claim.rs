@@ -231,8 +231,10 @@ impl Reading {
         for statement in &self.statements {
             names[statement.sentence] |= statement.about.iter().any(Option::is_some);
         }
+        let mut commas = vec![0usize; words.len()];
         let mut stops = vec![false; words.len()];
         for (at, token) in self.tokens.iter().enumerate() {
+            commas[self.sentence[at]] += usize::from(token.kind == Kind::Comma);
             stops[self.sentence[at]] |= matches!(token.kind, Kind::Comma | Kind::Break);
         }
         (0..words.len())
@@ -240,7 +242,10 @@ impl Reading {
                 let long = mentions[s] >= 7 && glue[s] == 0;
                 // "spike flat 1/pi infinity": no subject, no verb, no comma.
                 let bare = mentions[s] >= 4 && glue[s] == 0 && !names[s] && !stops[s];
-                long || bare
+                // "0/0, delta, spike, 1/pi, constant": words to choose from.
+                let one_each = mentions[s] <= commas[s] + 2;
+                let offered = mentions[s] >= 5 && commas[s] >= 4 && one_each && glue[s] <= 1;
+                long || bare || offered
             })
             .collect()
     }

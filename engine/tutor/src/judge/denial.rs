@@ -21,14 +21,10 @@ pub fn denials(
     let mut at = 0;
     while at < tokens.len() {
         let token = &tokens[at];
-        if inside[at] {
-            at += 1;
-            continue;
-        }
         let report = grammar::REPORTS
             .iter()
             .find(|words| starts_with(tokens, at, words));
-        let negator = token.kind == Kind::Word && grammar::is_negator(&token.word);
+        let negator = !inside[at] && token.kind == Kind::Word && grammar::is_negator(&token.word);
         let not_only = starts_with(tokens, at, &["not", "only"])
             || starts_with(tokens, at, &["not", "just"])
             || starts_with(tokens, at, &["not", "merely"]);
