@@ -3,7 +3,7 @@
 //! `v_dot_h` is the cosine between the direction and the facet it is mirrored in; N·V where
 //! the surface itself is the mirror. It counts as 0 below 0 and as 1 above 1.
 
-use crate::real::{Real, lit, zero_unless_nan};
+use crate::real::{Real, lit, one_minus_square, zero_unless_nan};
 use crate::term::{F0, Param, Term, V_DOT_H, entry};
 
 pub(crate) const TERMS: &[Term] = &[
@@ -44,7 +44,21 @@ const F_SCHLICK: Term = entry!(
 #[inline(always)]
 pub fn f_spherical_gaussian<R: Real>(f0: R, v_dot_h: R) -> R {
     let u = v_dot_h.clamp_unit();
-    f0 + (lit::<R>(1.0) - f0) * ((lit::<R>(-5.55473) * u - lit(6.98316)) * u).exp2()
+    // The exponent reaches −12.5 and keeps its rounding errors, the constants' included.
+    let (a, b) = (split::<R>(-5.55473), split::<R>(-6.98316));
+    let (x, x_low) = a.0.two_prod(u);
+    let (y, y_low) = x.two_sum(b.0);
+    let (z, z_low) = y.two_prod(u);
+    let low = z_low + (y_low + (x_low + a.1 * u + b.1)) * u;
+    let power = z.exp2() * (lit::<R>(1.0) + low * lit(std::f64::consts::LN_2));
+    f0 + (lit::<R>(1.0) - f0) * power
+}
+
+/// A constant as an unevaluated sum.
+#[inline(always)]
+fn split<R: Real>(x: f64) -> (R, R) {
+    let high = lit::<R>(x);
+    (high, lit(x - high.to_f64()))
 }
 
 const F_SPHERICAL_GAUSSIAN: Term = entry!(
@@ -94,13 +108,15 @@ const F_SCHLICK_IOR: Term = entry!(
     needs: ["f_schlick"]
 );
 
-/// g² = η² − 1 + c² to its last digit: near the critical angle everything depends on it.
+/// a² + c² − 1 as an unevaluated sum: near the critical angle (a = η), and near Brewster's
+/// (a = η c), everything depends on its last digits.
 #[inline(always)]
-fn refracted_squared<R: Real>(eta: R, c: R) -> R {
-    let ((p, p_low), (q, q_low)) = (eta.two_prod(eta), c.two_prod(c));
+fn squares_above_one<R: Real>(a: (R, R), c: R) -> (R, R) {
+    let ((p, p_low), (q, q_low)) = (a.0.two_prod(a.0), c.two_prod(c));
+    let p_low = p_low + lit::<R>(2.0) * a.0 * a.1;
     let (sum, sum_low) = p.two_sum(q);
-    let (g2, g2_low) = sum.two_sum(lit(-1.0));
-    g2 + (g2_low + (sum_low + (p_low + q_low)))
+    let (high, low) = sum.two_sum(lit(-1.0));
+    high.two_sum(low + (sum_low + (p_low + q_low)))
 }
 
 /// Exact Fresnel reflectance of a dielectric, unpolarised, η = n_t/n_i.
@@ -143,45 +159,58 @@ pub fn t_dielectric<R: Real>(eta: R, v_dot_h: R) -> R {
 struct Refraction<R> {
     eta: R,
     c: R,
-    /// η cos θ_t, or `None` under total internal reflection.
-    g: Option<R>,
+    /// η cos θ_t as an unevaluated sum, or `None` under total internal reflection.
+    g: Option<(R, R)>,
 }
 
 impl<R: Real> Refraction<R> {
     #[inline(always)]
     fn new(eta: R, v_dot_h: R) -> Refraction<R> {
+        let zero = lit::<R>(0.0);
         let c = v_dot_h.clamp_unit();
         let eta = eta
             .abs()
             .at_least(lit(1.0 / R::LARGE))
             .at_most(lit(R::LARGE));
-        let g2 = refracted_squared(eta, c);
-        Refraction {
-            eta,
-            c,
-            g: if g2 < lit(0.0) { None } else { Some(g2.sqrt()) },
-        }
+        let (g2, g2_low) = squares_above_one((eta, zero), c);
+        let g = if g2 < zero {
+            None
+        } else {
+            let g = g2.sqrt();
+            let (back, back_low) = g.two_prod(g);
+            let low = ((g2 - back) - back_low + g2_low) / (lit::<R>(2.0) * g);
+            Some((g, if low.is_finite() { low } else { zero }))
+        };
+        Refraction { eta, c, g }
     }
 
     #[inline(always)]
     fn reflected(&self) -> R {
-        let (one, eta, c) = (lit::<R>(1.0), self.eta, self.c);
-        let Some(g) = self.g else { return one };
-        let d = (eta - one) * (eta + one);
+        let (one, two, eta, c) = (lit::<R>(1.0), lit::<R>(2.0), self.eta, self.c);
+        let Some((g, g_low)) = self.g else { return one };
+        let (eta2, eta2_low) = eta.two_prod(eta);
+        let d = (eta2 - one) + eta2_low;
         if d == lit(0.0) {
             return zero_unless_nan([c]);
         }
-        let (sum_s, sum_p) = (c + g, eta * eta * c + g);
-        let brewster = (c * eta).squared() - (one - c) * (one + c);
-        let r_s = d / sum_s / sum_s;
-        let r_p = (d / sum_p) * (brewster / sum_p);
+        let (s, s_low) = c.two_sum(g);
+        let (x, x_low) = eta2.two_prod(c);
+        let (p, p_low) = x.two_sum(g);
+        let brewster = squares_above_one(c.two_prod(eta), c).0;
+        // 1/(s + s_low)² is 1/s² (1 − 2 s_low/s).
+        let r_s = d / s / s * (one - two * ((s_low + g_low) / s));
+        let r_p = (d / p) * (brewster / p);
+        let p_low = p_low + (x_low + eta2_low * c + g_low);
+        let r_p = r_p * (one - two * (p_low / p));
         lit::<R>(0.5) * (r_s * r_s + r_p * r_p)
     }
 
     #[inline(always)]
     fn transmitted(&self) -> R {
         let (one, eta, c) = (lit::<R>(1.0), self.eta, self.c);
-        let Some(g) = self.g else { return lit(0.0) };
+        let Some((g, _)) = self.g else {
+            return lit(0.0);
+        };
         if eta == one {
             return one + zero_unless_nan([c]);
         }
@@ -276,7 +305,6 @@ fn conductor<R: Real>(n: R, k: R, v_dot_h: R) -> (R, R) {
         n.abs().at_most(lit(R::LARGE)),
         k.abs().at_most(lit(R::LARGE)),
     );
-    let s2 = (one - c) * (one + c);
     // n² − k² − s² to its last digit, for the critical angle of n < 1.
     let ((nn, nn_low), (kk, kk_low)) = (n.two_prod(n), k.two_prod(k));
     let (cc, cc_low) = c.two_prod(c);
@@ -291,34 +319,46 @@ fn conductor<R: Real>(n: R, k: R, v_dot_h: R) -> (R, R) {
     } else {
         large
     };
+    // Their difference is |t0|, which is known to its last digit.
+    let large = t0.abs() + small;
     let (a2, b2) = if t0 < zero {
         (small, large)
     } else {
         (large, small)
     };
     let a = a2.sqrt();
-    // a − c as (a² − c²)/(a + c), and a c − s² likewise, where they cancel and b is small.
+    let (back, back_low) = a.two_prod(a);
+    let a_low = ((a2 - back) - back_low) / (two * a).at_least(lit(R::TINY));
+    // a − c as (a² − c²)/(a + c), and a c − s² likewise, where they cancel and b is small. The
+    // sums keep their rounding errors, since each counts four times.
     let b2_k2 = b2 - k * k;
-    let cancels = |difference: R, sum: R| t0 > zero && difference.abs() < lit::<R>(0.25) * sum;
-    let (plus, minus) = (a + c, a - c);
+    let n2_1 = (nn - one) + nn_low;
+    let cancels = |difference: R, sum: R| t0 > zero && difference.abs() < half * sum;
+    let (plus, plus_low) = a.two_sum(c);
+    let plus_low = plus_low + a_low;
+    let minus = (a - c) + a_low;
     let minus = if cancels(minus, plus) {
-        ((n - one) * (n + one) + b2_k2) / plus
+        (n2_1 + b2_k2) / plus * (one - plus_low / plus)
     } else {
         minus
     };
-    let den_s = plus * plus + b2;
+    let den_s = plus * plus + (b2 + two * plus * plus_low);
     if den_s == zero {
         // Grazing, and no interface.
         return (zero, one);
     }
-    let (sum, difference) = (a * c + s2, a * c - s2);
+    let ((ac, ac_low), (s2, s2_low)) = (a.two_prod(c), one_minus_square(c));
+    let (sum, sum_low) = ac.two_sum(s2);
+    let sum_low = sum_low + (ac_low + s2_low + a_low * c);
+    let difference = (ac - s2) + (ac_low - s2_low + a_low * c);
     let difference = if cancels(difference, sum) {
-        (c * c * (n * n + b2_k2) - s2) / sum
+        let above = squares_above_one(c.two_prod(n), c).0 + c * c * b2_k2;
+        above / sum * (one - sum_low / sum)
     } else {
         difference
     };
     let bc2 = b2 * (c * c);
-    let den_p = sum * sum + bc2;
+    let den_p = sum * sum + (bc2 + two * sum * sum_low);
     let r_s = (minus * minus + b2) / den_s;
     let t_s = lit::<R>(4.0) * (a * c) / den_s;
     // R_p/R_s and its complement.

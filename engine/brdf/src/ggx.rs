@@ -286,7 +286,7 @@ pub fn v_dot_h_and_rest<R: Real>(l: impl Into<Vector<R>>, v: impl Into<Vector<R>
     let rest = if c < lit(0.5) {
         one - c
     } else {
-        lit::<R>(0.25) * sum_squared(l, [-v[0], -v[1], -v[2]]) / (one + c)
+        lit::<R>(0.25) * difference_squared(l, v) / (one + c)
     };
     (c, rest)
 }
@@ -295,6 +295,19 @@ pub fn v_dot_h_and_rest<R: Real>(l: impl Into<Vector<R>>, v: impl Into<Vector<R>
 #[inline(always)]
 fn sum_squared<R: Real>(a: Vector<R>, b: Vector<R>) -> R {
     square(a[0].two_sum(b[0])) + square(a[1].two_sum(b[1])) + square(a[2].two_sum(b[2]))
+}
+
+/// |a − b|² to its last digit.
+#[inline(always)]
+fn difference_squared<R: Real>(a: Vector<R>, b: Vector<R>) -> R {
+    let [x, y, z] = [0, 1, 2].map(|i| {
+        let (high, low) = a[i].two_sum(-b[i]);
+        let (square, square_low) = high.two_prod(high);
+        (square, square_low + lit::<R>(2.0) * high * low)
+    });
+    let (sum, low) = x.0.two_sum(y.0);
+    let (sum, low2) = sum.two_sum(z.0);
+    sum + (low + low2 + (x.1 + y.1 + z.1))
 }
 
 /// The square of an unevaluated sum, without its last term.

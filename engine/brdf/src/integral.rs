@@ -317,7 +317,13 @@ pub fn share_ratio_above<R: Real>(ratio: R, light_deg: R) -> R {
     if ratio <= lit(0.0) {
         return lit(1.0);
     }
-    let c = (light_deg * lit(PI / 360.0)).cos();
+    // The cosine of half the angle; close to 180° the sine of what is missing keeps its digits.
+    let half = lit::<R>(PI / 360.0);
+    let c = if light_deg > lit(90.0) {
+        ((lit::<R>(180.0) - light_deg) * half).sin()
+    } else {
+        (light_deg * half).cos()
+    };
     (lit::<R>(0.25) / (ratio * (c * c))).at_most(lit(1.0))
 }
 

@@ -124,7 +124,7 @@ impl Finding {
 pub fn bound(name: &str) -> f64 {
     match name {
         "f_schlick" | "f_schlick_ior" | "f_lazanyi" => 25.0,
-        "vector_f_schlick" | "vector_specular" => 25.0,
+        "vector_f_schlick" | "vector_specular" | "specular_ggx" => 25.0,
         "diffuse_oren_nayar_full" | "diffuse_eon" => 25.0,
         // A whole density, and a form as printed with differences nobody asked to keep.
         "vector_pdf" | "gsf_modified_kelemen" => 16.0,
@@ -256,7 +256,7 @@ fn climb(
         } else {
             precision.round(args[index] * (1.0 + share * (2.0 * numbers.unit() - 1.0)))
         };
-        args[index] = moved.clamp(low, high);
+        args[index] = precision.round(moved.clamp(low, high));
         if !possible(term, precision, &args) {
             continue;
         }
@@ -327,7 +327,7 @@ pub(crate) fn possible(term: &Term, precision: Precision, args: &[f64]) -> bool 
             .map(|i| args[i])
     };
     // What rounding each component leaves.
-    let length_error = 2.0 * (-precision.format().0 as f64 - 1.0).exp2();
+    let length_error = 1.75 * (-precision.format().0 as f64 - 1.0).exp2();
     let unit = |x, y, z| match (get(x), get(y), get(z)) {
         (Some(x), Some(y), Some(z)) => (x * x + y * y + z * z - 1.0).abs() < length_error,
         _ => true,
