@@ -179,3 +179,75 @@ fn a_broken_lesson_is_named_and_the_others_open() {
     terminal.send("\u{3}");
     assert_eq!(terminal.wait(), 0);
 }
+
+/// Skips to the first explanation, in plain text, and leaves.
+fn go_to_explanation(home: &std::path::Path) {
+    let folder = home.join("p").display().to_string();
+    let args = [
+        "learn",
+        "smith-g2",
+        "--plain",
+        "--seed",
+        "7",
+        "--progress",
+        &folder,
+    ];
+    for _ in 0..60 {
+        let text = common::stdout(&common::run_with(home, &args, ":skip\n"));
+        if text.contains("a line of one `.` hands it in") {
+            return;
+        }
+    }
+    panic!("no explanation is asked for");
+}
+
+#[test]
+fn a_text_half_written_survives_a_power_cut() {
+    let home = tempfile::tempdir().expect("a folder");
+    go_to_explanation(home.path());
+    let mut terminal = learn(home.path(), (80, 24));
+    terminal.wait_for("Hand in");
+    // Letters that are commands elsewhere are text here.
+    terminal.send("q? the middle is\rtoo dark");
+    terminal.wait_for("too dark");
+    // The log itself, not the file that will take its place.
+    let log = || {
+        fs::read_dir(home.path().join("p"))
+            .ok()?
+            .filter_map(|entry| Some(entry.ok()?.path()))
+            .filter(|path| {
+                path.extension()
+                    .is_some_and(|extension| extension == "toml")
+            })
+            .filter_map(|path| fs::read_to_string(path).ok())
+            .find(|text| text.contains("too dark"))
+    };
+    common::wait_for("the draft in the log", log);
+    terminal.kill();
+    let mut terminal = learn(home.path(), (80, 24));
+    terminal.wait_for("q? the middle is");
+    terminal.wait_for("too dark");
+    terminal.send("\u{3}");
+    assert_eq!(terminal.wait(), 0);
+}
+
+#[test]
+fn a_lesson_open_elsewhere_is_not_written_twice() {
+    let home = tempfile::tempdir().expect("a folder");
+    let mut first = learn(home.path(), (80, 24));
+    first.wait_for("Enter on");
+    first.send("\r");
+    first.wait_for("✓ saved");
+    let mut second = learn(home.path(), (80, 24));
+    second.wait_for("open in another window");
+    second.send("\r");
+    second.wait_for("✓ saved");
+    for terminal in [&mut first, &mut second] {
+        terminal.send("q");
+        assert_eq!(terminal.wait(), 0);
+    }
+    let logs = fs::read_dir(home.path().join("p"))
+        .expect("a folder")
+        .count();
+    assert_eq!(logs, 2);
+}

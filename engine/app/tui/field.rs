@@ -132,3 +132,37 @@ fn editor(draft: &str) -> TextArea<'static> {
     area.move_cursor(CursorMove::End);
     area
 }
+
+#[cfg(test)]
+mod tests {
+    use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+    use ratatui_textarea::Input as Edit;
+
+    use super::*;
+
+    #[track_caller]
+    fn check_typed(draft: &str, keys: &str, text: &str) {
+        let mut field = Field::Editor(Box::new(editor(draft)));
+        for letter in keys.chars() {
+            let code = if letter == '\r' {
+                KeyCode::Enter
+            } else {
+                KeyCode::Char(letter)
+            };
+            field.edit(Edit::from(KeyEvent::new(code, KeyModifiers::NONE)));
+        }
+        assert_eq!(field.text().as_deref(), Some(text));
+    }
+
+    #[test]
+    fn what_is_typed_at_once_is_what_stands_there() {
+        check_typed("", "ab\rcd", "ab\ncd");
+        check_typed("one", " two\rthree\r", "one two\nthree\n");
+        check_typed("one\ntwo", " three", "one\ntwo three");
+        check_typed(
+            "",
+            "q? the middle is\rtoo dark",
+            "q? the middle is\ntoo dark",
+        );
+    }
+}
