@@ -48,10 +48,12 @@ impl Reading {
             }
             // A place named before the talk turned to another surface is not its place.
             let since = |class: usize| about[class].as_ref().map_or(0, |a: &About| a.tokens.0);
-            if about[PLACE]
-                .as_ref()
-                .is_some_and(|a| a.held == Held::Remembered)
-                && since(SURFACE).max(since(MATERIAL)) > since(PLACE)
+            if about[PLACE].as_ref().is_some_and(|a| a.held < Held::Local)
+                && (since(MATERIAL) > since(PLACE)
+                    || since(SURFACE) > since(PLACE)
+                        && about[PLACE]
+                            .as_ref()
+                            .is_some_and(|a| a.held == Held::Remembered))
             {
                 about[PLACE] = None;
             }

@@ -108,8 +108,23 @@ pub fn expand(tokens: Vec<Token>, answer: &str) -> Vec<Token> {
                 )
         });
         let opens = out.last().is_none_or(|t| t.kind != Kind::Word);
-        let measures = measured || opens && next.is_some_and(|t| is_preposition(&t.word));
-        if token.is("light") && follows && measures {
+        let measures = measured
+            || opens && next.is_some_and(|t| is_preposition(&t.word))
+            || opens
+                && next.is_some_and(|t| {
+                    matches!(
+                        t.word.as_str(),
+                        "rim"
+                            | "edge"
+                            | "edges"
+                            | "border"
+                            | "outline"
+                            | "contour"
+                            | "silhouette"
+                            | "ring"
+                    )
+                });
+        if token.is("light") && (follows || opens) && measures {
             out.push(Token {
                 word: "bright".to_owned(),
                 ..token.clone()

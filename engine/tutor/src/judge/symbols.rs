@@ -134,6 +134,8 @@ fn is_link(word: &str) -> bool {
         word,
         "and"
             | "you"
+            | "what"
+            | "the"
             | "we"
             | "i"
             | "d"
