@@ -3,7 +3,7 @@
 //!
 //! Every formula is written once, generic over its precision ([`Real`]), in the form that
 //! stays accurate, next to its name, its arguments, its source and its WGSL twin. The
-//! registry ([`terms`], [`term`]) hands all of that out as data.
+//! registry ([`terms()`], [`term()`]) hands all of that out as data.
 //!
 //! Conventions, without exception: `alpha = roughness²`; D is normalised so that the
 //! integral of D cos θ over the hemisphere is 1; angles are radians unless a name says
@@ -25,6 +25,7 @@ pub mod real;
 pub mod smith;
 pub mod term;
 pub mod vector;
+mod vector_terms;
 pub mod walk;
 pub mod whole;
 
@@ -40,6 +41,7 @@ pub use real::Real;
 pub use smith::*;
 pub use term::{Param, Term, term, terms};
 pub use vector::Vector;
+pub use vector_terms::vector_terms;
 pub use whole::*;
 
 pub use glam;

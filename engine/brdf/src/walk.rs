@@ -10,7 +10,7 @@
 //! Heitz, Hanika, d'Eon and Dachsbacher 2016; Hammon 2017, appendix, whose slides draw the
 //! normal from D alone: that is not the distribution of what a ray meets.
 
-use crate::batch::{Isa, Level, dispatch, sin_cos_turn};
+use crate::batch::{Isa, Level, dispatch, ln_unit, sin_cos_turn};
 use crate::ggx::{Ggx, Sampler};
 use crate::real::{Fused, Real, Single, lit};
 use crate::vector::{Vector, add, dot, normalize, reflect, scale};
@@ -289,38 +289,4 @@ fn mix(mut x: u32) -> u32 {
     x ^= x >> 15;
     x = x.wrapping_mul(0x846c_a68b);
     x ^ (x >> 16)
-}
-
-/// ln of a normal number, without branches: for loops that are to be vectorised.
-#[inline(always)]
-fn ln_unit<S: Single>(x: S) -> S {
-    // x = m 2^k with m in [sqrt(½), sqrt(2)).
-    let bits = x.store().to_bits();
-    let shifted = bits.wrapping_sub(0x3f35_04f3);
-    let k = S::load((shifted as i32 >> 23) as f32);
-    let m = S::load(f32::from_bits((shifted & 0x007f_ffff) + 0x3f35_04f3));
-    let r = m - lit(1.0);
-    let r2 = r * r;
-    // Minimax of (ln(1 + r) − r + r²/2)/r³ on that range.
-    let coefficients = [
-        7.037_683_6e-2,
-        -0.115_146_1,
-        0.116_769_99,
-        -0.124_201_41,
-        0.142_493_23,
-        -0.166_680_58,
-        0.200_007_15,
-        -0.249_999_94,
-        0.333_333_31,
-    ];
-    let mut p = lit::<S>(coefficients[0]);
-    for &c in &coefficients[1..] {
-        p = p.mul_add(r, lit(c));
-    }
-    let small = (r * r2).mul_add(p, lit::<S>(-0.5) * r2);
-    // ln 2 in two parts, the first exact times k.
-    k.mul_add(
-        lit(0.693_359_375),
-        r + k.mul_add(lit(-2.121_944_4e-4), small),
-    )
 }

@@ -154,6 +154,15 @@ fn normalisation_of_distributions() {
 }
 
 #[test]
+fn visible_facets_cover_the_surface() {
+    for mu in [0.05, 0.3, 0.7, 1.0f64] {
+        for alpha in [0.05, 0.3, 1.0] {
+            close(integral_g1_d_ggx(mu, alpha), 1.0, 1e-7);
+        }
+    }
+}
+
+#[test]
 fn albedo_of_the_roughest_surface() {
     for mu in [1e-4, 0.01, 0.05, 0.2, 0.5, 0.9, 1.0f64] {
         close(albedo_ggx(mu, 1.0), 1.0 - mu * (1.0 / mu).ln_1p(), 1e-12);

@@ -1,0 +1,209 @@
+//! Many evaluations at once: structure of arrays in, slices out.
+//!
+//! Every loop is written once and compiled for the baseline, for AVX2 with FMA and for
+//! AVX-512; [`Isa::best`] is what this machine can run. What is the same for all evaluations
+//! is given as [`Input::All`] and leaves the loop: the variants are chosen once, outside.
+//!
+//! The formulas are the stable ones of the terms without their care for denormal numbers:
+//! cosines are expected in [0, 1] and α in [1e-4, 1]. A cosine below 0 (`n_dot_l`,
+//! `n_dot_v`) gives 0. Slices may differ in length; the shortest counts.
+//!
+//! Blocks of a few thousand elements stay in the cache; beyond it, memory is the limit.
+
+// Loops over an index of slices of the same length are what the compiler vectorises best.
+#![allow(clippy::needless_range_loop)]
+
+mod conductor;
+mod functions;
+mod sample;
+mod specular;
+
+pub use conductor::{Conductor, conductor_rgb};
+pub(crate) use functions::{ln_unit, sin_cos_turn};
+pub use sample::{Samples, sample};
+pub use specular::{Cosines, Vectors, specular, specular_vec3, specular_vectors};
+
+use crate::real::{Fused, Single};
+
+/// A set of instructions that this machine has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Isa(pub(crate) Level);
+
+/// An [`Isa`] above the baseline is made only where its features were detected.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Level {
+    Baseline,
+    #[cfg(target_arch = "x86_64")]
+    Avx2,
+    #[cfg(target_arch = "x86_64")]
+    Avx512,
+}
+
+impl Isa {
+    /// What every machine of this architecture has.
+    pub const BASELINE: Isa = Isa(Level::Baseline);
+
+    /// All that this machine has, slowest first.
+    pub fn available() -> Vec<Isa> {
+        #[allow(unused_mut)]
+        let mut all = vec![Isa::BASELINE];
+        #[cfg(target_arch = "x86_64")]
+        {
+            let fma = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma");
+            if fma {
+                all.push(Isa(Level::Avx2));
+            }
+            if fma
+                && is_x86_feature_detected!("avx512f")
+                && is_x86_feature_detected!("avx512vl")
+                && is_x86_feature_detected!("avx512dq")
+                && is_x86_feature_detected!("avx512bw")
+            {
+                all.push(Isa(Level::Avx512));
+            }
+        }
+        all
+    }
+
+    /// The fastest that this machine has.
+    pub fn best() -> Isa {
+        Isa::available().pop().unwrap_or(Isa::BASELINE)
+    }
+
+    /// `baseline`, `avx2` or `avx512`.
+    pub fn name(self) -> &'static str {
+        match self.0 {
+            Level::Baseline => "baseline",
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx2 => "avx2",
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx512 => "avx512",
+        }
+    }
+}
+
+/// An argument that varies from one evaluation to the next, or does not.
+#[derive(Debug, Clone, Copy)]
+pub enum Input<'a> {
+    /// One value each.
+    Each(&'a [f32]),
+    /// The same for all: what depends on it alone is computed once.
+    All(f32),
+}
+
+impl Input<'_> {
+    fn len(&self) -> usize {
+        match self {
+            Input::Each(values) => values.len(),
+            Input::All(_) => usize::MAX,
+        }
+    }
+}
+
+/// An [`Input`] whose kind is known at compile time.
+trait Source: Copy {
+    /// Cut to a length, so that the loop needs no bounds checks.
+    fn cut(self, n: usize) -> Self;
+    /// The value for one evaluation.
+    fn at<S: Single>(self, i: usize) -> S;
+}
+
+#[derive(Clone, Copy)]
+struct Each<'a>(&'a [f32]);
+
+#[derive(Clone, Copy)]
+struct All(f32);
+
+impl Source for Each<'_> {
+    #[inline(always)]
+    fn cut(self, n: usize) -> Self {
+        Each(&self.0[..n])
+    }
+    #[inline(always)]
+    fn at<S: Single>(self, i: usize) -> S {
+        S::load(self.0[i])
+    }
+}
+
+impl Source for All {
+    #[inline(always)]
+    fn cut(self, _: usize) -> All {
+        self
+    }
+    #[inline(always)]
+    fn at<S: Single>(self, _: usize) -> S {
+        S::load(self.0)
+    }
+}
+
+/// Evaluates an expression with the kind of an input known: one loop for each kind.
+macro_rules! for_kinds {
+    ($n:expr; $input:expr, $name:ident => $call:expr) => {
+        match $input {
+            Input::Each(values) => {
+                let $name = Each(&values[..$n]);
+                $call
+            }
+            Input::All(value) => {
+                let $name = All(value);
+                $call
+            }
+        }
+    };
+}
+
+/// Runs a body that is generic over its arithmetic with the instructions of an [`Isa`].
+macro_rules! dispatch {
+    ($isa:expr, $body:ident ( $($arg:ident : $type:ty),* )) => {{
+        #[cfg(target_arch = "x86_64")]
+        #[target_feature(enable = "avx2,fma")]
+        fn avx2($($arg: $type),*) {
+            $body::<Fused>($($arg),*)
+        }
+        #[cfg(target_arch = "x86_64")]
+        #[target_feature(enable = "avx2,fma,avx512f,avx512vl,avx512dq,avx512bw")]
+        fn avx512($($arg: $type),*) {
+            $body::<Fused>($($arg),*)
+        }
+        match $isa.0 {
+            Level::Baseline => $body::<f32>($($arg),*),
+            // SAFETY: an `Isa` above the baseline exists only where its features were detected.
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx2 => unsafe { avx2($($arg),*) },
+            // SAFETY: as above.
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx512 => unsafe { avx512($($arg),*) },
+        }
+    }};
+}
+
+pub(crate) use dispatch;
+use for_kinds;
+
+/// Quotients, to measure how fast the machine divides.
+pub fn divide(isa: Isa, a: &[f32], b: &[f32], out: &mut [f32]) {
+    dispatch!(isa, divide_body(a: &[f32], b: &[f32], out: &mut [f32]))
+}
+
+#[inline(always)]
+fn divide_body<S: Single>(a: &[f32], b: &[f32], out: &mut [f32]) {
+    let n = a.len().min(b.len()).min(out.len());
+    let (a, b, out) = (&a[..n], &b[..n], &mut out[..n]);
+    for i in 0..n {
+        out[i] = (S::load(a[i]) / S::load(b[i])).store();
+    }
+}
+
+/// Square roots, to measure how fast the machine takes them.
+pub fn square_root(isa: Isa, a: &[f32], out: &mut [f32]) {
+    dispatch!(isa, square_root_body(a: &[f32], out: &mut [f32]))
+}
+
+#[inline(always)]
+fn square_root_body<S: Single>(a: &[f32], out: &mut [f32]) {
+    let n = a.len().min(out.len());
+    let (a, out) = (&a[..n], &mut out[..n]);
+    for i in 0..n {
+        out[i] = S::load(a[i]).sqrt().store();
+    }
+}

@@ -1,0 +1,125 @@
+//! The formulas from vectors as data.
+
+use crate::ggx::{Fresnel, Ggx, Sampler, Specular};
+use crate::real::Real;
+use crate::term::{ALPHA, F0, Param, Term, entry};
+
+/// The formulas from vectors as data, so that their errors can be measured like those of the
+/// terms. Lessons do not call them, and they have no WGSL twin.
+pub fn vector_terms() -> &'static [Term] {
+    VECTOR_TERMS
+}
+
+const VECTOR_TERMS: &[Term] = &[
+    VECTOR_D_GGX,
+    VECTOR_V_GGX,
+    VECTOR_LAMBDA_GGX,
+    VECTOR_F_SCHLICK,
+    VECTOR_SPECULAR,
+    VECTOR_PDF,
+];
+
+const fn component(name: &'static str, meaning: &'static str) -> Param {
+    let range = if matches!(name.as_bytes()[2], b'z') {
+        (1e-6, 1.0)
+    } else {
+        (-1.0, 1.0)
+    };
+    Param {
+        name,
+        range,
+        unit: "1",
+        meaning,
+    }
+}
+
+const L_X: Param = component("l_x", "light along the tangent");
+const L_Y: Param = component("l_y", "light along the bitangent");
+const L_Z: Param = component("l_z", "light along the normal");
+const V_X: Param = component("v_x", "view along the tangent");
+const V_Y: Param = component("v_y", "view along the bitangent");
+const V_Z: Param = component("v_z", "view along the normal");
+
+/// D of GGX from a light and a view, see [`Ggx::d_between`].
+fn vector_d_ggx<R: Real>(l_x: R, l_y: R, l_z: R, v_x: R, v_y: R, v_z: R, alpha: R) -> R {
+    Ggx::new(alpha).d_between([l_x, l_y, l_z], [v_x, v_y, v_z])
+}
+
+const VECTOR_D_GGX: Term = entry!(
+    vector_d_ggx(l_x: L_X, l_y: L_Y, l_z: L_Z, v_x: V_X, v_y: V_Y, v_z: V_Z, alpha: ALPHA),
+    symbol: "D", latex: "D", cost: 15,
+    doc: "D of GGX from light and view in the tangent frame",
+    source: "Walter et al. 2007, eq. 33",
+    wgsl: None
+);
+
+/// Visibility of GGX from a light and a view, see [`Ggx::visibility`].
+fn vector_v_ggx<R: Real>(l_x: R, l_y: R, l_z: R, v_x: R, v_y: R, v_z: R, alpha: R) -> R {
+    Ggx::new(alpha).visibility([l_x, l_y, l_z], [v_x, v_y, v_z])
+}
+
+const VECTOR_V_GGX: Term = entry!(
+    vector_v_ggx(l_x: L_X, l_y: L_Y, l_z: L_Z, v_x: V_X, v_y: V_Y, v_z: V_Z, alpha: ALPHA),
+    symbol: "V", latex: "V", cost: 20,
+    doc: "visibility of GGX from light and view in the tangent frame",
+    source: "Heitz 2014, eq. 99",
+    wgsl: None
+);
+
+/// Λ of GGX from a direction, see [`Ggx::lambda`].
+fn vector_lambda_ggx<R: Real>(v_x: R, v_y: R, v_z: R, alpha: R) -> R {
+    Ggx::new(alpha).lambda([v_x, v_y, v_z])
+}
+
+const VECTOR_LAMBDA_GGX: Term = entry!(
+    vector_lambda_ggx(v_x: V_X, v_y: V_Y, v_z: V_Z, alpha: ALPHA),
+    symbol: "Λ", latex: r"\Lambda", cost: 15,
+    doc: "Lambda of GGX from a direction in the tangent frame",
+    source: "Heitz 2014, eq. 72",
+    wgsl: None
+);
+
+/// Schlick's reflectance from a light and a view, see [`Fresnel::eval`].
+fn vector_f_schlick<R: Real>(l_x: R, l_y: R, l_z: R, v_x: R, v_y: R, v_z: R, f0: R) -> R {
+    Fresnel::Schlick { f0: [f0; 3] }.eval([l_x, l_y, l_z], [v_x, v_y, v_z])[0]
+}
+
+const VECTOR_F_SCHLICK: Term = entry!(
+    vector_f_schlick(l_x: L_X, l_y: L_Y, l_z: L_Z, v_x: V_X, v_y: V_Y, v_z: V_Z, f0: F0),
+    symbol: "F", latex: "F", cost: 25,
+    doc: "Schlick's reflectance from light and view",
+    source: "Schlick 1994, eq. 15",
+    wgsl: None
+);
+
+/// D V F cos θ from a light and a view, see [`Specular::eval_cos`].
+#[allow(clippy::too_many_arguments)]
+fn vector_specular<R: Real>(l_x: R, l_y: R, l_z: R, v_x: R, v_y: R, v_z: R, alpha: R, f0: R) -> R {
+    let fresnel = Fresnel::Schlick { f0: [f0; 3] };
+    Specular {
+        ggx: Ggx::new(alpha),
+        fresnel,
+    }
+    .eval_cos([l_x, l_y, l_z], [v_x, v_y, v_z])[0]
+}
+
+const VECTOR_SPECULAR: Term = entry!(
+    vector_specular(l_x: L_X, l_y: L_Y, l_z: L_Z, v_x: V_X, v_y: V_Y, v_z: V_Z, alpha: ALPHA, f0: F0),
+    symbol: "D V F cos θ", latex: r"D V F \cos\theta", cost: 60,
+    doc: "specular BRDF times cosine from light and view in the tangent frame",
+    source: "Walter et al. 2007, eq. 20; Heitz 2014, eq. 99",
+    wgsl: None
+);
+
+/// Density of the visible normals' reflection, see [`Ggx::pdf`].
+fn vector_pdf<R: Real>(l_x: R, l_y: R, l_z: R, v_x: R, v_y: R, v_z: R, alpha: R) -> R {
+    Ggx::new(alpha).pdf([l_x, l_y, l_z], [v_x, v_y, v_z], Sampler::SphericalCap)
+}
+
+const VECTOR_PDF: Term = entry!(
+    vector_pdf(l_x: L_X, l_y: L_Y, l_z: L_Z, v_x: V_X, v_y: V_Y, v_z: V_Z, alpha: ALPHA),
+    symbol: "p", latex: "p", cost: 25,
+    doc: "density of lights drawn by the visible normals",
+    source: "Heitz 2018; Dupuy and Benyoub 2023",
+    wgsl: None
+);
