@@ -206,6 +206,7 @@ impl Sitting {
                 self.pass_on(news);
             }
         }
+        self.collect();
     }
 
     fn pass_on(&mut self, news: Result<(), String>) {

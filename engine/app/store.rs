@@ -229,13 +229,11 @@ fn is_hidden(path: &Path) -> bool {
         .is_some_and(|name| name.to_string_lossy().starts_with('.'))
 }
 
-/// What became of the log.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Report {
-    /// The first so many events are on the disk.
-    Saved(usize),
-    /// The log could not be written; everything is kept and tried again.
-    Failed(String),
+/// What became of the first `count` events.
+struct Report {
+    count: usize,
+    /// Where they could not be written, all of them are kept and tried again.
+    result: Result<(), String>,
 }
 
 struct Item {
@@ -250,7 +248,8 @@ pub struct Writer {
     reports: Receiver<Report>,
     thread: Option<JoinHandle<Result<(), String>>>,
     sent: usize,
-    done: Result<usize, String>,
+    /// How many events were heard of, saved or not.
+    told: usize,
 }
 
 impl Writer {
@@ -269,7 +268,7 @@ impl Writer {
             reports,
             thread: Some(thread),
             sent: 0,
-            done: Ok(0),
+            told: 0,
         }
     }
 
@@ -299,21 +298,14 @@ impl Writer {
     }
 
     fn note(&mut self, report: Report) -> Option<Result<(), String>> {
-        match report {
-            Report::Saved(count) => {
-                self.done = Ok(count);
-                (count == self.sent).then_some(Ok(()))
-            }
-            Report::Failed(why) => {
-                self.done = Err(why.clone());
-                Some(Err(why))
-            }
-        }
+        self.told = report.count;
+        // That a part is saved is no news; that something failed is.
+        (report.result.is_err() || report.count == self.sent).then_some(report.result)
     }
 
     /// Whether a write is on its way, and news will come soon.
     pub fn is_busy(&self) -> bool {
-        matches!(self.done, Ok(count) if count < self.sent)
+        self.told < self.sent
     }
 
     /// Writes what is left, tries a last time where writing failed, and ends.
@@ -360,9 +352,9 @@ fn write_until_closed(
         }
         if !nothing_to_write {
             last = replace(path, &record.to_toml()).map_err(|error| plain_reason(&error));
-            let report = match &last {
-                Ok(()) => Report::Saved(count),
-                Err(why) => Report::Failed(why.clone()),
+            let report = Report {
+                count,
+                result: last.clone(),
             };
             // Nobody listens any more once the session is closed.
             let _ = outbox.send(report);
@@ -499,6 +491,9 @@ mod tests {
         ));
         fs::remove_file(&blocked).expect("ours");
         writer.append("2026-01-02T03:04:07Z".into(), 5, event("b"));
+        assert!(writer.is_busy());
+        while writer.wait_for_news(Duration::from_secs(60)) != Some(Ok(())) {}
+        assert!(!writer.is_busy());
         assert_eq!(writer.close(), Ok(()));
         assert_eq!(
             store.logs().expect("readable").readable[0]
