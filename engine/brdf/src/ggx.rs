@@ -299,14 +299,19 @@ fn sum_squared<R: Real>(a: Vector<R>, b: Vector<R>) -> R {
 /// |a − b|² to its last digit.
 #[inline(always)]
 fn difference_squared<R: Real>(a: Vector<R>, b: Vector<R>) -> R {
-    let [x, y, z] = [0, 1, 2].map(|i| {
-        let (high, low) = a[i].two_sum(-b[i]);
-        let (square, square_low) = high.two_prod(high);
-        (square, square_low + lit::<R>(2.0) * high * low)
-    });
-    let (sum, low) = x.0.two_sum(y.0);
-    let (sum, low2) = sum.two_sum(z.0);
-    sum + (low + low2 + (x.1 + y.1 + z.1))
+    let (x, x_low) = square_exact(a[0].two_sum(-b[0]));
+    let (y, y_low) = square_exact(a[1].two_sum(-b[1]));
+    let (z, z_low) = square_exact(a[2].two_sum(-b[2]));
+    let (sum, low) = x.two_sum(y);
+    let (sum, low2) = sum.two_sum(z);
+    sum + ((low + low2) + (x_low + y_low + z_low))
+}
+
+/// The square of an unevaluated sum as one.
+#[inline(always)]
+fn square_exact<R: Real>((high, low): (R, R)) -> (R, R) {
+    let (square, square_low) = high.two_square();
+    (square, square_low + lit::<R>(2.0) * high * low)
 }
 
 /// The square of an unevaluated sum, without its last term.

@@ -128,6 +128,16 @@ pub trait Real:
         (p, ((ah * bh - p) + ah * bl + al * bh) + al * bl)
     }
 
+    /// The square as an unevaluated sum, with one splitting.
+    #[inline(always)]
+    fn two_square(self) -> (Self, Self) {
+        let t = self * Self::of(Self::SPLITTER);
+        let high = t - (t - self);
+        let low = self - high;
+        let p = self * self;
+        (p, ((high * high - p) + (high + high) * low) + low * low)
+    }
+
     /// The sum as an unevaluated sum: rounded sum and its rounding error (Knuth).
     #[inline(always)]
     fn two_sum(self, y: Self) -> (Self, Self) {
@@ -411,5 +421,9 @@ impl Real for Fused {
     fn two_prod(self, y: Fused) -> (Fused, Fused) {
         let p = self * y;
         (p, self.mul_add(y, -p))
+    }
+    #[inline(always)]
+    fn two_square(self) -> (Fused, Fused) {
+        self.two_prod(self)
     }
 }
