@@ -49,6 +49,10 @@ pub enum Command {
     Check(Check),
     /// Draw fingerprints and plots to files
     Render(Render),
+    /// Measure run time against error, for every term and every way to compute it
+    Bench(Bench),
+    /// Look for the inputs at which each function is worst; exit 1 past a bound
+    Stress(Stress),
     /// Say what this machine offers: adapter, terminal graphics, colours, folders
     Doctor(Json),
 }
@@ -213,6 +217,32 @@ pub struct Render {
     #[arg(long)]
     pub force: bool,
     /// Print one JSON object a picture
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct Bench {
+    /// A short run: seconds instead of minutes
+    #[arg(long)]
+    pub quick: bool,
+    /// Print JSON, one object a line
+    #[arg(long)]
+    pub json: bool,
+    /// Folder for the plots (else ./lobe-bench; with --json only where named)
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub struct Stress {
+    /// Functions to look at (else all)
+    #[arg(value_name = "FN")]
+    pub names: Vec<String>,
+    /// A short search: seconds instead of minutes
+    #[arg(long)]
+    pub quick: bool,
+    /// Print JSON, one object a line
     #[arg(long)]
     pub json: bool,
 }

@@ -1,7 +1,7 @@
 //! Writing to standard output: a reader that goes away ends the program quietly.
 
 use std::fmt::Write as _;
-use std::io::{self, Write as _};
+use std::io::{self, IsTerminal as _, Write as _};
 
 use serde::Serialize;
 
@@ -23,6 +23,15 @@ pub fn line(text_of_line: &str) -> Result<(), Failure> {
 /// Writes a line to standard error; where that is gone too, there is nobody to tell.
 pub fn complain(line: &str) {
     let _ = writeln!(io::stderr(), "lobe: {line}");
+}
+
+/// One line on standard error that says how far a long command is: each takes the place of
+/// the one before. Where standard error is no terminal, nothing is said.
+pub fn progress(line: &str) {
+    let mut error = io::stderr().lock();
+    if error.is_terminal() {
+        let _ = write!(error, "\r\x1b[K{line}").and_then(|()| error.flush());
+    }
 }
 
 /// Writes one JSON object on a line of its own.

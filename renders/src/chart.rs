@@ -31,6 +31,8 @@ pub struct PlotSpec {
     pub series: Vec<(String, Vec<(f64, f64)>)>,
     /// Points worth a label: the label, x, y.
     pub marks: Vec<(String, f64, f64)>,
+    /// Leave room left and right of the values: for points, which would stand on the frame.
+    pub x_room: bool,
 }
 
 /// A figure with what only this crate's pictures need beyond [`PlotSpec`].
@@ -143,7 +145,7 @@ impl Chart<'_> {
             finite().chain(marks()).map(|p| p.0),
             self.spec.x_log,
             self.x_range,
-            false,
+            self.spec.x_room,
         );
         let y_axis = Axis::fit(
             finite().chain(marks()).map(|p| p.1),

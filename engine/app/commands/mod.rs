@@ -1,5 +1,6 @@
 //! The commands, one file each.
 
+mod bench;
 mod check;
 mod doctor;
 mod eval;
@@ -11,6 +12,7 @@ mod list;
 mod mark;
 mod progress;
 mod render;
+mod stress;
 mod transcript;
 
 use std::path::Path;
@@ -39,6 +41,8 @@ pub fn run(cli: Cli) -> Result<Done, Failure> {
         Some(Command::Judge(args)) => judge::run(folders, &args),
         Some(Command::Check(args)) => check::run(folders, &args),
         Some(Command::Render(args)) => render::run(folders, &args),
+        Some(Command::Bench(args)) => bench::run(&args),
+        Some(Command::Stress(args)) => stress::run(&args),
         Some(Command::Doctor(args)) => doctor::run(folders, args),
     }
 }

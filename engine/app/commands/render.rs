@@ -176,6 +176,7 @@ fn draw_plot(lesson: &Lesson, view: &PlotView, out: &Path) -> Result<Vec<Report>
         y_log: view.y_log,
         series: view.series.clone(),
         marks: view.marks.clone(),
+        ..PlotSpec::default()
     };
     let failed =
         |error: renders::Error| Failure::unusable(format!("{}/{}: {error}", lesson.id, view.id));

@@ -43,6 +43,7 @@ fn pareto_front() {
         isa: "baseline",
         ns,
         limit_ratio: None,
+        needs: None,
         max_ulp,
         p999_ulp: 0.0,
         median_ulp: 0.0,

@@ -43,6 +43,7 @@ fn row(group: &str, variant: &str, ns: f64, errors: Errors) -> Row {
         isa: "baseline",
         ns,
         limit_ratio: None,
+        needs: None,
         max_ulp: errors.max,
         p999_ulp: errors.p999,
         median_ulp: errors.median,

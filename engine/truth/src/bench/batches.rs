@@ -52,6 +52,7 @@ impl Bench<'_> {
         let least = needs.zip(limit).map(|((divisions, roots), limit)| {
             divisions * limit.division_ns + roots * limit.square_root_ns
         });
+        let error_unit = if errors.is_empty() { "none" } else { "ulp" };
         let errors = Errors::of(errors);
         Row {
             group: name.0.into(),
@@ -60,10 +61,11 @@ impl Bench<'_> {
             isa: isa.name(),
             ns,
             limit_ratio: least.map(|least| least / ns),
+            needs,
             max_ulp: errors.max,
             p999_ulp: errors.p999,
             median_ulp: errors.median,
-            error_unit: "ulp",
+            error_unit,
             pareto: false,
         }
     }

@@ -27,13 +27,16 @@ pub struct Row {
     pub ns: f64,
     /// Share of what the machine's division and square-root units allow, where that is known.
     pub limit_ratio: Option<f64>,
+    /// Divisions and square roots of an evaluation, where that share is known.
+    pub needs: Option<(f64, f64)>,
     /// Largest error.
     pub max_ulp: f64,
     /// Error that one point in a thousand exceeds.
     pub p999_ulp: f64,
     /// Error that half of the points exceed.
     pub median_ulp: f64,
-    /// `ulp`, or `relative` for approximations.
+    /// `ulp`, `ulp of f64`, `relative` for approximations, or `none` where nothing is known
+    /// to measure against; the errors are 0 then.
     pub error_unit: &'static str,
     /// Whether no other row of the group is both faster and more accurate.
     pub pareto: bool,

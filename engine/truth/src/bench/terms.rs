@@ -38,6 +38,7 @@ pub(super) fn rows(term: &'static Term, effort: Effort) -> Vec<Row> {
         isa: "baseline",
         ns,
         limit_ratio: None,
+        needs: None,
         max_ulp: errors.max,
         p999_ulp: errors.p999,
         median_ulp: errors.median,
@@ -69,7 +70,7 @@ pub(super) fn rows(term: &'static Term, effort: Effort) -> Vec<Row> {
                 Precision::Double,
                 double,
                 Errors::default(),
-                "relative",
+                "none",
             ),
             row(
                 "quadrature",
