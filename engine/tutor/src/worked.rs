@@ -58,7 +58,7 @@ impl Lesson {
             Ok(substitution) => {
                 let numbers = substitution.lines.into_iter();
                 let lines = std::iter::once(symbols.clone())
-                    .filter(|line| line != name)
+                    .filter(|line| line != name && !name.ends_with(&format!(" = {line}")))
                     .chain(numbers.filter(|line| *line != symbols));
                 (lines.collect(), substitution.shown)
             }
