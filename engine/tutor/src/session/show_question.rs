@@ -16,7 +16,9 @@ pub(super) fn page(session: &Session, item: &str, attempt: u32) -> (String, Vec<
     };
     let mut blocks = Vec::new();
     if attempt == 2 {
-        blocks.push(paragraph("The same question again, in new words."));
+        blocks.push(paragraph(
+            "The same question again; answer it in new words.",
+        ));
     }
     blocks.extend(lesson.prose(&explain.prompt, &Values::new()));
     if attempt == 2
