@@ -11,7 +11,7 @@ use std::thread;
 use tutor::Lesson;
 use tutor::prose::TableView;
 use tutor::session::Msg;
-use tutor::view::{Input, Saving, View};
+use tutor::view::{Input, Saving, Stage, View};
 
 use crate::exit::{Done, Failure};
 use crate::fingerprints::profile_table;
@@ -319,9 +319,11 @@ impl Plain {
         let Self { mut sitting, .. } = self;
         // Even where nobody reads any more, the answers are kept.
         let _ = sitting.tell(Msg::Quit);
+        let over = sitting.view().stage == Stage::Result;
         let saved = sitting.close();
         let end = result?;
         match saved {
+            Ok(()) if over => output::line("\nSaved.")?,
             Ok(()) => output::line("\nSaved. The same command goes on from here.")?,
             Err(why) => {
                 return Err(Failure::unusable(format!(
