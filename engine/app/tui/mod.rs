@@ -20,6 +20,7 @@ use crossterm::terminal::{Clear, ClearType};
 use crossterm::{event, execute};
 use ratatui::Frame;
 use tutor::Lesson;
+use tutor::view::Stage;
 
 use self::draw::style::Palette;
 use self::guard::Guard;
@@ -77,7 +78,7 @@ pub fn run(shelf: &Shelf, store: &Store, open: Open) -> Result<Done, Failure> {
         store,
         screen,
         help: None,
-        pictures: Pictures::default(),
+        pictures: Pictures::new(palette.has_colours()),
         palette,
         from_list,
     };
@@ -258,12 +259,14 @@ impl App<'_> {
         };
         lesson.save_draft();
         let id = lesson.sitting.lesson().id.text.clone();
+        let over = lesson.view().stage == Stage::Result;
         match lesson.sitting.close() {
             Ok(()) => {
                 // The terminal may be gone: then there is nobody to tell.
-                let _ = crate::output::line(&format!(
-                    "Saved. `lobe learn {id}` goes on where you left."
-                ));
+                let _ = crate::output::line(&match over {
+                    true => "Saved. `lobe list` says when it is due again.".to_owned(),
+                    false => format!("Saved. `lobe learn {id}` goes on where you left."),
+                });
                 Ok(Done::Fine)
             }
             Err(why) => Err(Failure::unusable(format!(

@@ -29,30 +29,40 @@ enum Job {
         cancel: Arc<AtomicBool>,
         since: Instant,
     },
-    Ready(SlicedProtocol),
+    Ready(Drawn),
     Failed(String),
+}
+
+/// A picture that was drawn.
+enum Drawn {
+    Pixels(SlicedProtocol),
+    /// Rows of letters, where there are no colours.
+    Shades(Vec<String>),
 }
 
 /// A picture as it is seen.
 pub enum State<'a> {
     Drawing { spinner: usize },
     Ready(&'a SlicedProtocol),
+    Shades(&'a [String]),
     Failed(&'a str),
 }
 
 /// All pictures of the screen.
 pub struct Pictures {
     picker: Option<Picker>,
+    colours: bool,
     jobs: HashMap<Key, Job>,
-    finished: Receiver<(Key, Result<SlicedProtocol, String>)>,
-    finish: Sender<(Key, Result<SlicedProtocol, String>)>,
+    finished: Receiver<(Key, Result<Drawn, String>)>,
+    finish: Sender<(Key, Result<Drawn, String>)>,
 }
 
-impl Default for Pictures {
-    fn default() -> Self {
+impl Pictures {
+    pub fn new(colours: bool) -> Self {
         let (finish, finished) = mpsc::channel();
         Self {
             picker: None,
+            colours,
             jobs: HashMap::new(),
             finished,
             finish,
@@ -86,7 +96,14 @@ impl Pictures {
         for key in wanted {
             if !self.jobs.contains_key(&key) {
                 let picker = self.picker.get_or_insert_with(probe::picker).clone();
-                let job = start(key.clone(), Arc::clone(lesson), picker, self.finish.clone());
+                let finish = self.finish.clone();
+                let job = start(
+                    key.clone(),
+                    Arc::clone(lesson),
+                    picker,
+                    self.colours,
+                    finish,
+                );
                 self.jobs.insert(key, job);
             }
         }
@@ -122,7 +139,8 @@ impl Pictures {
             Job::Drawing { since, .. } => State::Drawing {
                 spinner: (since.elapsed().as_millis() / TURN.as_millis()) as usize,
             },
-            Job::Ready(image) => State::Ready(image),
+            Job::Ready(Drawn::Pixels(image)) => State::Ready(image),
+            Job::Ready(Drawn::Shades(rows)) => State::Shades(rows),
             Job::Failed(why) => State::Failed(why),
         })
     }
@@ -132,13 +150,14 @@ fn start(
     key: Key,
     lesson: Arc<Lesson>,
     picker: Picker,
-    finish: Sender<(Key, Result<SlicedProtocol, String>)>,
+    colours: bool,
+    finish: Sender<(Key, Result<Drawn, String>)>,
 ) -> Job {
     let cancel = Arc::new(AtomicBool::new(false));
     let cancelled = Arc::clone(&cancel);
     thread::spawn(move || {
         // A driver may panic; that is a picture that failed, not the end of the lesson.
-        let drawn = std::panic::catch_unwind(|| draw(&key, &lesson, &picker, &cancelled));
+        let drawn = std::panic::catch_unwind(|| draw(&key, &lesson, &picker, colours, &cancelled));
         let result = drawn.unwrap_or_else(|_| Err("the drawing broke down".to_owned()));
         // The screen may have moved on.
         let _ = finish.send((key, result));
@@ -153,8 +172,9 @@ fn draw(
     key: &Key,
     lesson: &Lesson,
     picker: &Picker,
+    colours: bool,
     cancel: &AtomicBool,
-) -> Result<SlicedProtocol, String> {
+) -> Result<Drawn, String> {
     let (_, id, width, height) = key;
     let fingerprint = fingerprint(lesson, id).ok_or("the lesson has no such picture")?;
     let cell = match picker.protocol_type() {
@@ -175,6 +195,9 @@ fn draw(
         renders::render(&fingerprint, &options, cancel).map_err(|error| error.to_string())?;
     let image = RgbaImage::from_raw(picture.width, picture.height, picture.rgba)
         .ok_or("the picture has the wrong size")?;
+    if !colours && picker.protocol_type() == ProtocolType::Halfblocks {
+        return Ok(Drawn::Shades(shades(&image, *width, *height)));
+    }
     let area = Size::new(*width, *height);
     SlicedProtocol::new_with_resize(
         picker,
@@ -182,5 +205,45 @@ fn draw(
         area,
         Resize::Scale(None),
     )
+    .map(Drawn::Pixels)
     .map_err(|error| error.to_string())
+}
+
+/// A picture in letters: brightness in two panels, too dark or too bright in the third.
+fn shades(image: &RgbaImage, width: u16, height: u16) -> Vec<String> {
+    const SHADES: [char; 5] = [' ', '░', '▒', '▓', '█'];
+    let (columns, rows) = (u32::from(width), u32::from(height));
+    let small = image::imageops::thumbnail(image, columns, rows);
+    let letter = |x: u32, y: u32| {
+        let [red, green, blue, _] = small.get_pixel(x, y).0.map(i32::from);
+        let brightness = (3 * red + 6 * green + blue) / 10;
+        match (x >= columns * 2 / 3, red - blue) {
+            (true, _) if brightness < 50 => ' ',
+            (true, 30..) => '+',
+            (true, ..=-30) => '-',
+            (true, _) => '=',
+            (false, _) => SHADES[(brightness / 52).clamp(0, 4) as usize],
+        }
+    };
+    (0..rows)
+        .map(|y| (0..columns).map(|x| letter(x, y)).collect())
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn letters_stand_for_brightness_and_for_the_sign_of_the_error() {
+        let colours = [[0, 0, 0], [255, 255, 255], [66, 141, 204], [240, 142, 46]];
+        let panels = [
+            colours[0], colours[1], colours[0], colours[1], colours[2], colours[3],
+        ];
+        let image = RgbaImage::from_fn(6, 1, |x, _| {
+            let [red, green, blue] = panels[x as usize];
+            image::Rgba([red, green, blue, 255])
+        });
+        assert_eq!(shades(&image, 6, 1), [" █ █-+"]);
+    }
 }

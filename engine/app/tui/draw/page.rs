@@ -135,7 +135,7 @@ impl Page {
                 lesson.as_str(),
                 id.as_str(),
                 placed.width,
-                placed.height as u16 - 2,
+                placed.height as u16 - picture::AROUND,
             )),
             _ => None,
         })

@@ -9,10 +9,19 @@ use ratatui_image::sliced::{SignedPosition, SlicedImage};
 use super::style::Palette;
 use crate::tui::pictures::{Pictures, State};
 
-/// Rows for a picture of that width, its title and the names of its panels included.
+/// Rows around a picture: its title, the names of its panels, what the colours say.
+pub const AROUND: u16 = 3;
+
+/// Rows for a picture of that width and what stands around it.
 pub fn height(width: u16) -> u16 {
-    crate::tui::pictures::rows_for(width) + 2
+    crate::tui::pictures::rows_for(width) + AROUND
 }
+
+/// What the colours of the third panel say.
+const COLOURS: &str = "blue: too dark · white: right · orange: too bright";
+
+/// What the signs there say, where there are no colours.
+const SIGNS: &str = "- too dark · = right · + too bright";
 
 /// Draws a picture `height` rows high that begins `offset` rows below the top of `window`
 /// (above it, where negative).
@@ -41,11 +50,25 @@ pub fn draw(
     };
     line(offset, Line::styled(title.to_owned(), palette.title()));
     line(
-        offset + i32::from(height) - 1,
+        offset + i32::from(height) - 2,
         Line::styled(names(window.width as usize), palette.quiet()),
     );
+    let state = pictures.state(lesson, id);
+    let key = match state {
+        Some(State::Shades(_)) => SIGNS,
+        _ => COLOURS,
+    };
+    line(
+        offset + i32::from(height) - 1,
+        Line::styled(key, palette.quiet()).right_aligned(),
+    );
     let middle = offset + i32::from(height / 2);
-    match pictures.state(lesson, id) {
+    match state {
+        Some(State::Shades(rows)) => {
+            for (row, shades) in (offset + 1..).zip(rows) {
+                line(row, Line::raw(shades.as_str()));
+            }
+        }
         Some(State::Ready(image)) => {
             // Far outside of the window it does not matter how far.
             let top = (offset + 1).clamp(i32::from(i16::MIN) / 2, i32::from(i16::MAX) / 2) as i16;

@@ -28,6 +28,10 @@ impl Palette {
         Self { colours: !refused }
     }
 
+    pub fn has_colours(self) -> bool {
+        self.colours
+    }
+
     fn fg(self, colour: Color) -> Style {
         if self.colours {
             Style::new().fg(colour)
