@@ -313,6 +313,6 @@ const DIFFUSE_EON: Term = entry!(
     let average = a * (1.0 + 0.07248820996 * roughness);
     let lost = a * roughness * 0.21530520045;
     let multi = albedo * albedo * average / (1.0 - albedo * lost) * a * roughness * loss_x * loss_y * 0.10132118364 / 0.21530520045;
-    return (albedo * a * (1.0 + roughness * s_over_t) + multi) * 0.31830988618379067;
+    return (albedo * a * max(1.0 + roughness * s_over_t, 0.0) + multi) * 0.31830988618379067;
 }")
 );

@@ -45,3 +45,7 @@ pub use vector_terms::vector_terms;
 pub use whole::*;
 
 pub use glam;
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -183,16 +183,25 @@ const LAMBDA_BECKMANN: Term = entry!(
     wgsl: Some("fn lobe_lambda_beckmann(n_dot_x: f32, alpha: f32) -> f32 {
     if (n_dot_x <= 0.0) { return 3.0e38; }
     let c = min(n_dot_x, 1.0);
-    let t = alpha * sqrt(max((1.0 - c) * (1.0 + c), 0.0));
-    if (t * 12.0 <= c) { return 0.0; }
-    let a = c / t;
-    var k = 0.0;
-    for (var n = 24; n > 0; n--) { k = 0.5 * f32(n) / (a + k); }
-    if (a < 1.0) {
-        let y = 1.0 / (1.0 + 0.47047 * a);
-        k = 0.56418958354775629 / (y * (0.3480242 + y * (-0.0958798 + y * 0.7478556))) - a;
-    }
-    return 0.28209479177387814 * exp(-a * a) * k / (a * (a + k));
+    let s = alpha * sqrt(max((1.0 - c) * (1.0 + c), 0.0));
+    if (s * 12.0 <= c) { return 0.0; }
+    let a = c / s;
+    let t = 2.0 * (a - 3.0) / (a + 3.0);
+    let b13 = 1.16527596e-8;
+    let b12 = t * b13 + (2.10743213e-7);
+    let b11 = t * b12 - b13 + (-6.09335611e-7);
+    let b10 = t * b11 - b12 + (-4.34782673e-6);
+    let b9 = t * b10 - b11 + (2.97848848e-5);
+    let b8 = t * b9 - b10 + (1.2794621e-5);
+    let b7 = t * b8 - b9 + (-0.00100565062);
+    let b6 = t * b7 - b8 + (0.0065227706);
+    let b5 = t * b6 - b7 + (-0.0243856009);
+    let b4 = t * b5 - b6 + (0.0594534792);
+    let b3 = t * b4 - b5 + (-0.0872657876);
+    let b2 = t * b3 - b4 + (0.0357130585);
+    let b1 = t * b2 - b3 + (0.112627852);
+    let u = (0.5 * t * b1 - b2 + 0.898302043) / (1.0 + 2.0 * a * a);
+    return 0.28209479177387814 * exp(-a * a) * u / a;
 }")
 );
 
