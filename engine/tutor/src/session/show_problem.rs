@@ -9,6 +9,7 @@ use crate::exercise;
 use crate::lesson::{Exercise, Lesson, Task};
 use crate::prose::{Block, Inline, Tone};
 use crate::view::Input;
+use crate::worked::given_words;
 use formula::{Digits, Values};
 
 pub(super) fn page(session: &Session, screen: &Screen) -> (String, Vec<Block>) {
@@ -36,6 +37,7 @@ pub(super) fn page(session: &Session, screen: &Screen) -> (String, Vec<Block>) {
     blocks.extend(opening(screen));
     blocks.extend(lesson.prose(&exercise.ask, &given));
     if let Screen::Faded(_) = screen {
+        blocks.push(starts_from(lesson, &given));
         blocks.extend(known_lines(lesson, problem, &given));
     }
     if let (Task::FindTheMistake { .. }, Ok(draw)) = (&exercise.task, problem.draw()) {
@@ -92,6 +94,15 @@ fn opening(screen: &Screen) -> Option<Block> {
         )),
         _ => None,
     }
+}
+
+/// The numbers that a faded example starts from; the lines asked for may need any of them.
+fn starts_from(lesson: &Lesson, given: &Values) -> Block {
+    let names = lesson.worked.iter().flat_map(|worked| &worked.given);
+    let numbers: Vec<String> = names
+        .filter_map(|it| Some(given_words(&it.name.text, *given.get(&it.name.text)?)))
+        .collect();
+    Block::Paragraph(vec![text("Given: "), Inline::Math(numbers.join(", "))])
 }
 
 /// The lines of a faded example that are not asked for.

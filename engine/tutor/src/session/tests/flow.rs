@@ -25,6 +25,8 @@ fn the_walkthrough_leads_to_the_worked_example_line_by_line() {
     assert!(words(&s).contains("volume = 27.0"));
     assert!(words(&s).contains("So the volume is 27."));
     leads(&mut s, Msg::Next, "faded:1", "");
+    // Whatever lines are asked for, the numbers they need are there.
+    assert!(words(&s).contains("Given: x = "), "{}", words(&s));
 }
 
 #[test]
