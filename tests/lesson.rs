@@ -373,3 +373,8 @@ fn the_first_lesson_survives_a_power_cut_after_every_answer() {
 fn the_second_lesson_survives_a_power_cut_after_every_answer() {
     check_lesson("02-smith-g2.toml");
 }
+
+#[test]
+fn the_third_lesson_survives_a_power_cut_after_every_answer() {
+    check_lesson("03-schlick-fresnel.toml");
+}

@@ -53,7 +53,7 @@ fn main() {
         "16 at p99",
     );
     row(
-        "check, both lessons",
+        "check, all lessons",
         repeat(15, || whole(&lobe, &["check"])),
         "200",
     );
