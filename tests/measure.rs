@@ -86,7 +86,7 @@ fn stress_for_people_fits_the_screen_and_names_the_point() {
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let text = stdout(&output);
     assert!(
-        text.contains("g1_beckmann") && text.contains("n_dot_x = "),
+        text.contains("g1_beckmann") && text.contains("n_dot_x="),
         "{text}"
     );
     assert!(

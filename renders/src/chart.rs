@@ -31,8 +31,9 @@ pub struct PlotSpec {
     pub series: Vec<(String, Vec<(f64, f64)>)>,
     /// Points worth a label: the label, x, y.
     pub marks: Vec<(String, f64, f64)>,
-    /// Leave room left and right of the values: for points, which would stand on the frame.
-    pub x_room: bool,
+    /// The marks are the figure: there is room around the outermost, and the labels are smaller
+    /// and keep off other marks.
+    pub scatter: bool,
 }
 
 /// A figure with what only this crate's pictures need beyond [`PlotSpec`].
@@ -145,7 +146,7 @@ impl Chart<'_> {
             finite().chain(marks()).map(|p| p.0),
             self.spec.x_log,
             self.x_range,
-            self.spec.x_room,
+            self.spec.scatter,
         );
         let y_axis = Axis::fit(
             finite().chain(marks()).map(|p| p.1),
@@ -419,6 +420,12 @@ impl Chart<'_> {
         taken: &mut Taken,
     ) -> Result<(), Error> {
         let em = self.em;
+        let letters = if self.spec.scatter { 0.8 * em } else { em };
+        if self.spec.scatter {
+            for (_, x, y) in &self.spec.marks {
+                taken.disc((frame.x(x_axis, *x), frame.y(y_axis, *y)), 0.4 * em);
+            }
+        }
         for (label, x, y) in &self.spec.marks {
             if !x_axis.holds(*x) || !y_axis.holds(*y) {
                 continue;
@@ -429,11 +436,11 @@ impl Chart<'_> {
             if label.is_empty() {
                 continue;
             }
-            let width = f64::from(text::width(label, em as f32, Weight::Regular));
+            let width = f64::from(text::width(label, letters as f32, Weight::Regular));
             let bounds = (frame.left, frame.top, frame.right, frame.bottom);
-            let place = taken.place((x, y), width, em, bounds);
-            let style = Style::new(em as f32, Weight::Regular, Align::Left, self.theme.ink);
-            pen.text(place.0, place.3 - 0.2 * em, style, label)?;
+            let place = taken.place((x, y), width, letters, bounds);
+            let style = Style::new(letters as f32, Weight::Regular, Align::Left, self.theme.ink);
+            pen.text(place.0, place.3 - 0.2 * letters, style, label)?;
         }
         Ok(())
     }

@@ -25,6 +25,12 @@ impl Taken {
         }
     }
 
+    /// Keeps labels off a disc, given in pixels.
+    pub fn disc(&mut self, (x, y): (f64, f64), radius: f64) {
+        self.boxes
+            .push((x - radius, y - radius, x + radius, y + radius));
+    }
+
     /// The best place for a label `width` pixels wide beside the point (`x`, `y`), within
     /// `frame`; it is taken from then on.
     pub fn place(&mut self, (x, y): (f64, f64), width: f64, em: f64, frame: Box) -> Box {
@@ -101,5 +107,11 @@ mod tests {
             );
             assert!(place.0 >= 0.0 && place.2 <= 200.0);
         }
+        // Where the next label would stand is another mark.
+        let next = Taken::default().place((40.0, 50.0), 40.0, 10.0, frame);
+        let mut taken = Taken::default();
+        taken.disc((next.0, next.1), 4.0);
+        let other = taken.place((40.0, 50.0), 40.0, 10.0, frame);
+        assert!(!meet(other, (next.0, next.1, next.0, next.1)), "{other:?}");
     }
 }

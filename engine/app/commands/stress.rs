@@ -125,7 +125,7 @@ fn row(finding: &Finding) -> String {
     let at: Vec<String> = finding
         .at
         .iter()
-        .map(|&(name, x)| format!("{name} = {}", shortest(x, finding.precision)))
+        .map(|&(name, x)| format!("{name}={}", shortest(x, finding.precision)))
         .collect();
     let first = format!(
         "{} {:<26} {:<4} {:>8.2} {:>6} {:>10}  ",

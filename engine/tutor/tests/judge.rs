@@ -168,9 +168,18 @@ fn nobody_passes_without_saying_anything() {
         retest,
         "rim center bright dim ratio silhouette infinity quarter overexposed dark",
     );
-    check_no_pass(explain, "0/0, infinity, delta, spike, 1/pi, constant, all directions");
-    check_no_pass("smith-g2/explain-1", "V, denominator, contains, twice, double, already, inside");
-    check_no_pass(retest, "It is false that the rim is too bright and the centre too dim.");
+    check_no_pass(
+        explain,
+        "0/0, infinity, delta, spike, 1/pi, constant, all directions",
+    );
+    check_no_pass(
+        "smith-g2/explain-1",
+        "V, denominator, contains, twice, double, already, inside",
+    );
+    check_no_pass(
+        retest,
+        "It is false that the rim is too bright and the centre too dim.",
+    );
     check_no_pass(retest, "Is the rim too bright? Is the centre too dim?");
     check_no_pass(
         retest,

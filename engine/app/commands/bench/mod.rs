@@ -24,11 +24,11 @@ pub fn run(args: &Bench) -> Result<Done, Failure> {
         // Before minutes of measuring, not after.
         fs::create_dir_all(folder).map_err(|error| Failure::unwritable(folder, &error))?;
     }
-    let machine = machine();
+    let (machine, load) = (machine(), load());
     output::progress("measuring divisions and square roots");
     let limits = limits(effort);
     output::progress("");
-    let foreword = foreword(&machine, &limits);
+    let foreword = foreword(&machine, &load, &limits);
     if args.json {
         foreword.lines().for_each(output::complain);
     } else {
@@ -72,8 +72,7 @@ fn out_folder(args: &Bench) -> Option<PathBuf> {
     }
 }
 
-/// The processor, and how busy it is: on a shared machine the figures are worse than they
-/// need be.
+/// The processor.
 fn machine() -> String {
     let read = |path| fs::read_to_string(path).unwrap_or_default();
     let info = read("/proc/cpuinfo");
@@ -85,18 +84,23 @@ fn machine() -> String {
     if let (Some(family), Some(model)) = (field("cpu family"), field("model\t")) {
         machine.push_str(&format!(" (family {family}, model {model})"));
     }
-    let cores = thread::available_parallelism().map_or(1, NonZero::get);
-    machine.push_str(&format!(", {cores} cores"));
-    if let Some(load) = read("/proc/loadavg").split_whitespace().next() {
-        machine.push_str(&format!(", load {load}"));
-    }
     machine
 }
 
-fn foreword(machine: &str, limits: &[Limit]) -> String {
+/// How busy the machine is: on a shared one the figures are worse than they need be.
+fn load() -> String {
+    let cores = thread::available_parallelism().map_or(1, NonZero::get);
+    let load = fs::read_to_string("/proc/loadavg").unwrap_or_default();
+    match load.split_whitespace().next() {
+        Some(load) => format!("{cores} cores, load {load} at the start"),
+        None => format!("{cores} cores"),
+    }
+}
+
+fn foreword(machine: &str, load: &str, limits: &[Limit]) -> String {
     let mut text = format!(
-        "Machine: {machine}. One thread, data in cache, the best of many runs.\n\
-         Its units, in nanoseconds a lane of f32:\n"
+        "{machine}, {load}\n\
+         One thread, data in cache, the best of many runs. Its units, in nanoseconds a lane of f32:\n"
     );
     for limit in limits {
         text.push_str(&format!(
@@ -153,7 +157,7 @@ fn table_row(row: &Row) -> String {
     };
     let error = |error| match row.error_unit {
         "none" => "-".to_owned(),
-        "relative" => format!("{error:.0e}r"),
+        "relative" => format!("{error:.1e}r"),
         _ => short_error(error),
     };
     let line = format!(

@@ -27,14 +27,23 @@ struct Picture {
 const PICTURES: &[Picture] = &[
     Picture {
         file: "batches",
-        title: "Batches: each line is one loop, compiled for three instruction sets",
+        title: "Batches: each line is one loop, from its name to AVX2 and AVX-512",
         holds: |row| row.error_unit == "ulp" && is_batch(row),
-        label: |row| format!("{}/{} {}", row.group, row.variant, row.isa),
+        label: |row| match row.isa {
+            "baseline" => format!("{}/{}", row.group, row.variant),
+            isa => isa.to_owned(),
+        },
     },
     Picture {
         file: "distributions",
-        title: "D and shadowing: from the textbook form (naive) to the stable one",
-        holds: |row| single(row, &["d_", "lambda_", "g1_", "g2_", "v_"]),
+        title: "Distributions: from the textbook form (naive) to the stable one",
+        holds: |row| single(row, &["d_"]),
+        label: name_of_form,
+    },
+    Picture {
+        file: "shadowing",
+        title: "Smith's shadowing: from the textbook form (naive) to the stable one",
+        holds: |row| single(row, &["lambda_", "g1_", "g2_", "v_ggx"]),
         label: name_of_form,
     },
     Picture {
@@ -59,7 +68,10 @@ const PICTURES: &[Picture] = &[
         file: "albedo",
         title: "Directional albedo: by quadrature, and by sampling",
         holds: |row| row.group == "albedo",
-        label: |row| row.variant.clone(),
+        label: |row| match row.variant.split_once(", ") {
+            Some((_, more)) if !more.starts_with("64 ") => more.to_owned(),
+            _ => row.variant.clone(),
+        },
     },
 ];
 
@@ -120,19 +132,32 @@ fn spec(picture: &Picture, rows: &[&Row], machine: &str) -> PlotSpec {
     }
     // The points are labelled; a legend would say the same again.
     let lines = lines.into_iter().map(|(_, points)| (String::new(), points));
-    let mark = |row: &&Row| {
+    let mut marks: Vec<(String, f64, f64)> = Vec::new();
+    for row in rows {
         let (x, y) = point(row);
-        ((picture.label)(row), x, y)
+        let mut label = (picture.label)(row);
+        // What several approximations stand for is one name at nearly one place.
+        let exact =
+            row.group.contains(" for ") && !row.group.starts_with(&format!("{} for", row.variant));
+        if exact && marks.iter().any(|mark| mark.0 == label) {
+            label.clear();
+        }
+        marks.push((label, x, y));
+    }
+    let floor = if rows.iter().any(|row| row.max_ulp < least) {
+        format!("; {least} or less at the bottom")
+    } else {
+        String::new()
     };
     PlotSpec {
         title: picture.title.to_owned(),
-        x_label: format!("nanoseconds for one evaluation ({machine})"),
-        y_label: format!("worst error at random points, {unit} (less than {least} drawn there)"),
+        x_label: format!("nanoseconds for one evaluation, {machine}"),
+        y_label: format!("worst error at random points, {unit}{floor}"),
         x_log: true,
         y_log: true,
-        x_room: true,
+        scatter: true,
         series: lines.collect(),
-        marks: rows.iter().map(mark).collect(),
+        marks,
     }
 }
 
@@ -199,7 +224,8 @@ mod tests {
         );
         let svg = |index: usize| fs::read_to_string(&files[index]).expect("text");
         for (index, label) in [
-            (0, "specular/batch avx2"),
+            (0, "specular/batch"),
+            (0, "avx2"),
             (2, "d_ggx, naive"),
             (4, "quadrature"),
         ] {
