@@ -457,11 +457,28 @@ pub struct Explain {
     /// The rubric made ready for judging, when it is first needed.
     pub judge: LazyJudge,
     /// Places of the expectations, in the rubric's order.
-    pub expectation_places: Vec<Place>,
+    pub expectation_places: Vec<EntryPlaces>,
     /// Places of the misconceptions, in the rubric's order.
-    pub misconception_places: Vec<Place>,
+    pub misconception_places: Vec<EntryPlaces>,
     /// Places of the examples, in the rubric's order.
-    pub example_places: Vec<Place>,
+    pub example_places: Vec<EntryPlaces>,
+}
+
+/// Where an entry of a rubric stands, and where the values of its keys do.
+#[derive(Clone, Debug, Default)]
+pub struct EntryPlaces {
+    /// Where the entry is announced.
+    pub whole: Place,
+    /// The keys with the places of their values; of a string, of what is between the quotes.
+    pub keys: Vec<(String, Place)>,
+}
+
+impl EntryPlaces {
+    /// The place of a key's value, else of the entry.
+    pub fn of(&self, key: &str) -> Place {
+        let found = self.keys.iter().find(|(name, _)| name == key);
+        found.map_or(self.whole, |(_, place)| *place)
+    }
 }
 
 /// A judge that is made when it is first asked: most starts of the program judge nothing.

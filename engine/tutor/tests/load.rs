@@ -135,6 +135,12 @@ fn broken_files_are_told_by_place() {
     );
     check_edit("is = \"roughness\"", "is = \"rougness\"", "rougness", "");
     check_edit(
+        "is = \"1 / roughness^4\"",
+        "is = \"1 / / roughness\"",
+        "/ roughness",
+        "",
+    );
+    check_edit(
         "where = \"n_dot_l * n_dot_v > 0.02\"",
         "where = \"n_dot_l * * 2\"",
         "* 2",
@@ -274,6 +280,24 @@ fn references_and_ids() {
         "v_gxx",
         "The core has no function `v_gxx`.",
     );
+    check_edit(
+        "reteach = \"shape\"",
+        "reteach = \"shapes\"",
+        "shapes",
+        "`already-inside` is taken up by `shapes`",
+    );
+    check_edit(
+        "verdict = \"pass\"",
+        "verdict = \"passs\"",
+        "passs",
+        "\"passs\" is no verdict",
+    );
+    check_edit(
+        "verdict = \"pass\"",
+        "met = [\"nothing\"]\nverdict = \"pass\"",
+        "[\"nothing\"]",
+        "No expectation of this question is called `nothing`.",
+    );
 }
 
 #[test]
@@ -289,6 +313,24 @@ fn exercises_are_rich_enough() {
         "is = \"1 / (pi * roughness^2)\" # twice",
         "",
         "10000 tries give no numbers for `fixture/peak`",
+    );
+}
+
+/// A file that is not even TOML tells its first errors, not one a line.
+#[track_caller]
+fn check_syntax(text: &str, message: &str) {
+    let found = findings(text);
+    assert!(!found.is_empty() && found.len() <= 5, "{}", found.len());
+    assert!(found[0].message.starts_with(message), "{:?}", found[0]);
+}
+
+#[test]
+fn broken_syntax_is_told_briefly() {
+    check_syntax(&COMPLETE.replace('\n', "\r"), "Carriage return");
+    check_syntax(&COMPLETE.replacen("\"\"\"", "", 1), "");
+    check_syntax(
+        &COMPLETE.replacen("summary = \"", "summary = \"\0", 1),
+        "The control character U+0000",
     );
 }
 

@@ -65,8 +65,7 @@ pub fn report(lesson: &Lesson) -> Report {
             let place = explain
                 .example_places
                 .get(finding.example)
-                .copied()
-                .unwrap_or(explain.id.place);
+                .map_or(explain.id.place, |places| places.of("verdict"));
             checker.error(place, "example-judged-otherwise", finding.message);
         }
     }

@@ -185,21 +185,61 @@ fn rubric_names(checker: &mut Checker<'_>, explain: &crate::lesson::Explain) {
         .map(|it| (&it.id, &it.reteach));
     let misconceptions = misconceptions.zip(&explain.misconception_places);
     let mut seen = BTreeSet::new();
-    for ((id, reteach), place) in expectations.chain(misconceptions) {
+    for ((id, reteach), places) in expectations.chain(misconceptions) {
+        let place = places.of("id");
         if !is_slug(id) {
-            let finding = checker.error(*place, "bad-id", format!("`{id}` is not an id."));
+            let finding = checker.error(place, "bad-id", format!("`{id}` is not an id."));
             finding.expected = Some("small letters, digits and single hyphens".to_owned());
         }
         if !seen.insert(id) {
             let message = format!("`{id}` stands twice in this question.");
-            checker.error(*place, "id-given-twice", message);
+            checker.error(place, "id-given-twice", message);
         }
         if let Some(reteach) = reteach
             && !known.contains(&reteach.as_str())
         {
             let near = nearest(reteach, known.iter().copied()).map(str::to_owned);
             let message = format!("`{id}` is taken up by `{reteach}`, but no `[[reteach]]` is.");
-            checker.error(*place, "unknown-id", message).expected = near;
+            checker
+                .error(places.of("reteach"), "unknown-id", message)
+                .expected = near;
+        }
+    }
+    criteria_named(checker, explain);
+}
+
+/// Criteria that examples and misconceptions refer to.
+fn criteria_named(checker: &mut Checker<'_>, explain: &crate::lesson::Explain) {
+    let rubric = &explain.rubric;
+    let expectations: Vec<&str> = rubric.expectation.iter().map(|it| it.id.as_str()).collect();
+    let misconceptions: Vec<&str> = rubric
+        .misconception
+        .iter()
+        .map(|it| it.id.as_str())
+        .collect();
+    let mut refer = |ids: &[String], known: &[&str], what: &str, place| {
+        for id in ids.iter().filter(|id| !known.contains(&id.as_str())) {
+            let near = nearest(id, known.iter().copied()).map(str::to_owned);
+            let message = format!("No {what} of this question is called `{id}`.");
+            checker.error(place, "unknown-id", message).expected =
+                near.or_else(|| (!known.is_empty()).then(|| known.join(", ")));
+        }
+    };
+    for (misconception, places) in rubric
+        .misconception
+        .iter()
+        .zip(&explain.misconception_places)
+    {
+        let unless = &misconception.unless;
+        refer(unless, &expectations, "expectation", places.of("unless"));
+    }
+    for (example, places) in rubric.example.iter().zip(&explain.example_places) {
+        if let Some(met) = &example.met {
+            refer(met, &expectations, "expectation", places.of("met"));
+        }
+        if let Some(held) = &example.misconceptions {
+            let place = places.of("misconceptions");
+            refer(held, &misconceptions, "misconception", place);
         }
     }
 }

@@ -114,12 +114,12 @@ fn read_numeric(table: &Table<'_, '_>, worked: Option<&Worked>) -> Option<Task> 
         if !single {
             table.missing("is", "`is = \"…\"` or `steps = […]`");
         }
+        let ask = table.text("answer");
         let is = table.formula("is")?;
         let name = Text {
             text: "answer".to_owned(),
             place: is.text.place,
         };
-        let ask = table.text("answer");
         return Some(Task::Numeric {
             steps: vec![ExerciseStep { name, ask, is }],
         });
@@ -195,6 +195,7 @@ fn read_order(table: &Table<'_, '_>) -> Option<Task> {
 }
 
 fn read_find_the_mistake(table: &Table<'_, '_>) -> Option<Task> {
+    let source = table.text("source");
     let lines = each_some(table, "line", "A line", |line| {
         let (name, says) = (line.need_text("name"), line.text("says"));
         let wrong = line.bool("wrong").unwrap_or(line.has("right"));
@@ -220,7 +221,6 @@ fn read_find_the_mistake(table: &Table<'_, '_>) -> Option<Task> {
         );
         return None;
     }
-    let source = table.text("source");
     Some(Task::FindTheMistake { lines, source })
 }
 

@@ -27,6 +27,9 @@ use reader::{Source, Table, place};
 /// The only format there is so far.
 const FORMAT: u32 = 1;
 
+/// So many errors of the TOML itself are told at once.
+const MOST_SYNTAX_ERRORS: usize = 5;
+
 /// Reads a lesson. A lesson comes only without errors; total: any text gives an answer.
 pub fn load(file_name: &str, text: &str) -> (Option<Lesson>, Vec<Finding>) {
     let source = Source {
@@ -39,8 +42,9 @@ pub fn load(file_name: &str, text: &str) -> (Option<Lesson>, Vec<Finding>) {
         let table = Table::new(&source, root.get_ref(), Place::default(), "The lesson");
         Some(read_lesson(&table))
     } else {
-        for error in errors {
-            source.report(syntax_finding(&source, &error));
+        // After a quote that is not closed nearly every line is an error: the first few tell.
+        for error in errors.iter().take(MOST_SYNTAX_ERRORS) {
+            source.report(syntax_finding(&source, error));
         }
         None
     };
@@ -59,6 +63,15 @@ fn syntax_finding(source: &Source<'_>, error: &toml::de::Error) -> Finding {
         start: span.start,
         end: span.end,
     };
+    let character = source
+        .text
+        .get(at.start..)
+        .and_then(|rest| rest.chars().next());
+    if let Some(control) = character.filter(|&c| c.is_control() && !"\t\r\n".contains(c)) {
+        let code = u32::from(control);
+        let message = format!("The control character U+{code:04X} cannot stand in a lesson.");
+        return source.finding(at, "toml", message).expecting("text");
+    }
     // "invalid string, expected `=`": the second half is what should stand there.
     let (message, expected) = match error.message().split_once(", expected ") {
         Some((message, expected)) => (message, Some(expected)),

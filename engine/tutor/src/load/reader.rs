@@ -9,7 +9,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::literal;
 use crate::finding::{Finding, Place};
-use crate::lesson::{Figures, Formula, Given, Text};
+use crate::lesson::{EntryPlaces, Figures, Formula, Given, Text};
 
 /// A file being read.
 pub struct Source<'a> {
@@ -299,7 +299,10 @@ impl<'s, 't> Table<'s, 't> {
     }
 
     /// Entries that serde reads, with their places.
-    pub fn deserialized<T: DeserializeOwned>(&self, key: &'static str) -> (Vec<T>, Vec<Place>) {
+    pub fn deserialized<T: DeserializeOwned>(
+        &self,
+        key: &'static str,
+    ) -> (Vec<T>, Vec<EntryPlaces>) {
         let Some(value) = self.get(key) else {
             return Default::default();
         };
@@ -313,7 +316,7 @@ impl<'s, 't> Table<'s, 't> {
             match T::deserialize(toml::de::ValueDeserializer::from(entry.clone())) {
                 Ok(value) => {
                     found.0.push(value);
-                    found.1.push(place(entry));
+                    found.1.push(entry_places(entry));
                 }
                 Err(error) => self
                     .source
@@ -347,6 +350,24 @@ impl<'s, 't> Table<'s, 't> {
         for (_, finding) in missing {
             self.source.report(finding);
         }
+    }
+}
+
+fn entry_places(entry: &Spanned<DeValue<'_>>) -> EntryPlaces {
+    let table = entry.get_ref().as_table();
+    let keys = table.into_iter().flat_map(in_order).map(|(key, value)| {
+        let mut at = place(value);
+        if value.get_ref().is_str() && at.end >= at.start + 2 {
+            at = Place {
+                start: at.start + 1,
+                end: at.end - 1,
+            };
+        }
+        (key.text, at)
+    });
+    EntryPlaces {
+        whole: place(entry),
+        keys: keys.collect(),
     }
 }
 
