@@ -5,9 +5,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use tutor::{Finding, Lesson, Severity};
+use tutor::{Finding, Lesson, Place, Severity};
 
-use crate::exit::Failure;
+use crate::exit::{Failure, plain_reason};
 
 /// The lessons that were built into the program: file name and text.
 const BUILT_IN: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/lessons.rs"));
@@ -56,7 +56,8 @@ impl Shelf {
             if path.is_dir() {
                 files.extend(Self::of_folder(path)?.files);
             } else {
-                files.push(read_file(path)?);
+                let bytes = fs::read(path).map_err(|error| Failure::unreadable(path, &error))?;
+                files.push(File::from_bytes(path, bytes));
             }
         }
         Ok(Self {
@@ -80,9 +81,18 @@ impl Shelf {
                 folder.display()
             )));
         }
-        let files: Result<Vec<File>, Failure> = paths.iter().map(|path| read_file(path)).collect();
+        // One file that cannot be read must not close the others.
+        let files = paths.iter().map(|path| match fs::read(path) {
+            Ok(bytes) => File::from_bytes(path, bytes),
+            Err(error) => {
+                let why = format!("It cannot be read: {}.", plain_reason(&error));
+                let name = path.display().to_string();
+                let help = "Move it out of the folder of lessons, or make it readable.";
+                File::unreadable(name, String::new(), Place::default(), why, help)
+            }
+        });
         Ok(Self {
-            files: numbered(files?),
+            files: numbered(files.collect()),
         })
     }
 
@@ -137,6 +147,41 @@ impl File {
         }
     }
 
+    fn from_bytes(path: &Path, bytes: Vec<u8>) -> Self {
+        let name = path.display().to_string();
+        match String::from_utf8(bytes) {
+            Ok(text) => Self::read(name, text),
+            Err(error) => {
+                let start = error.utf8_error().valid_up_to();
+                let text = String::from_utf8_lossy(error.as_bytes()).into_owned();
+                let place = Place {
+                    start,
+                    end: start + char::REPLACEMENT_CHARACTER.len_utf8(),
+                };
+                let why = "This byte is not UTF-8 text.";
+                Self::unreadable(name, text, place, why, "Save the file as UTF-8.")
+            }
+        }
+    }
+
+    /// A file that is no text, with the finding that says so.
+    fn unreadable(
+        name: String,
+        text: String,
+        place: Place,
+        why: impl Into<String>,
+        help: &str,
+    ) -> Self {
+        let finding = Finding::new(&name, &text, place, "unreadable", why).with_help(help);
+        Self {
+            name,
+            text,
+            number: 0,
+            lesson: None,
+            findings: vec![finding],
+        }
+    }
+
     /// The first error of the file as one line: file, line, column, what and what to do.
     pub fn why_broken(&self) -> String {
         let first = self
@@ -181,17 +226,6 @@ pub fn one_line(finding: &Finding) -> String {
         line.push_str(&format!("; {help}"));
     }
     line
-}
-
-fn read_file(path: &Path) -> Result<File, Failure> {
-    let bytes = fs::read(path).map_err(|error| Failure::unreadable(path, &error))?;
-    let text = String::from_utf8(bytes).map_err(|_| {
-        Failure::unusable(format!(
-            "{} is not UTF-8 text: save it as UTF-8",
-            path.display()
-        ))
-    })?;
-    Ok(File::read(path.display().to_string(), text))
 }
 
 fn numbered(mut files: Vec<File>) -> Vec<File> {
