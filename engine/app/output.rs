@@ -22,7 +22,12 @@ pub fn line(text_of_line: &str) -> Result<(), Failure> {
 
 /// Writes a line to standard error; where that is gone too, there is nobody to tell.
 pub fn complain(line: &str) {
-    let _ = writeln!(io::stderr(), "lobe: {line}");
+    note(&format!("lobe: {line}"));
+}
+
+/// The same without a name before it: what goes with a complaint.
+pub fn note(line: &str) {
+    let _ = writeln!(io::stderr(), "{line}");
 }
 
 /// One line on standard error that says how far a long command is: each takes the place of
@@ -46,7 +51,8 @@ fn broken(error: io::Error) -> Failure {
     if error.kind() == io::ErrorKind::BrokenPipe {
         Failure::ReaderGone
     } else {
-        Failure::unusable(format!("cannot write to standard output: {error}"))
+        let why = crate::exit::plain_reason(&error);
+        Failure::unusable(format!("cannot write to standard output: {why}"))
     }
 }
 

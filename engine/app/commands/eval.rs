@@ -88,8 +88,8 @@ fn complain(text: &str, error: &formula::Error) {
         text.get(..start),
         text.get(start..error.span.end.min(text.len())),
     ) {
-        eprintln!("  {text}");
         let carets = "^".repeat(inside.chars().count().max(1));
-        eprintln!("  {}{carets}", " ".repeat(before.chars().count()));
+        let before = " ".repeat(before.chars().count());
+        output::note(&format!("  {text}\n  {before}{carets}"));
     }
 }

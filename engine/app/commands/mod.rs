@@ -51,6 +51,11 @@ pub fn run(cli: Cli) -> Result<Done, Failure> {
 fn shelf(folders: &Folders) -> Result<Shelf, Failure> {
     let shelf = Shelf::open(folders.lessons.as_deref())?;
     shelf.warn_of_broken();
+    if shelf.lessons().next().is_none() {
+        return Err(Failure::unusable(
+            "no lesson can be read: mend these files, or name another folder with --lessons",
+        ));
+    }
     Ok(shelf)
 }
 
@@ -99,5 +104,7 @@ fn lines_of(path: &Path) -> Result<Vec<String>, Failure> {
             path.display()
         ))
     })?;
+    // Editors that mark UTF-8 put this before the first line.
+    let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
     Ok(text.lines().map(str::to_owned).collect())
 }

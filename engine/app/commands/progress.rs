@@ -36,11 +36,11 @@ pub fn run(folders: &Folders, args: Json) -> Result<Done, Failure> {
     let store = super::store(folders)?;
     let logs = store.logs()?;
     for unreadable in &logs.unreadable {
-        eprintln!(
-            "lobe: {}: {}; the file is left as it is",
+        output::complain(&format!(
+            "{}: {}; the file is left as it is",
             unreadable.path.display(),
             unreadable.why
-        );
+        ));
     }
     for log in &logs.readable {
         if args.json {
