@@ -57,6 +57,14 @@ fn eval_prints_values() {
         0.513_218_039_315_330_2,
     );
     check_eval("2 > 1", 1.0);
+    // A minus sign begins no option, and options may follow.
+    let output = run(&["eval", "-2^2", "-deg(60)", "-1", "--json"]);
+    let values: Vec<Value> = json(&stdout(&output));
+    assert_eq!(values.len(), 3, "{}", stderr(&output));
+    assert_eq!(
+        values[0],
+        serde_json::json!({"expr": "-2^2", "value": -4.0})
+    );
 }
 
 #[test]
@@ -95,12 +103,12 @@ fn eval_takes_a_batch() {
     let output = run_with(
         home.path(),
         &["eval", "--batch", "-"],
-        "1+1\n\n1/0\nsqrt(2)\n",
+        "\u{feff}1+1\r\n\n1/0\nsqrt(2)\n",
     );
     assert_eq!(output.status.code(), Some(1));
     let objects = json(&stdout(&output));
     assert_eq!(objects.len(), 3);
-    assert_eq!(objects[0]["value"].as_f64(), Some(2.0));
+    assert_eq!(objects[0], serde_json::json!({"expr": "1+1", "value": 2.0}));
     assert!(objects[1]["value"].is_null());
     assert_eq!(objects[2]["value"].as_f64(), Some(2f64.sqrt()));
 }
@@ -299,6 +307,55 @@ fn check_passes_on_the_lessons_and_finds_a_changed_digit() {
     assert!(junit.contains("failures=\"1\""), "{junit}");
 }
 
+/// A lesson file with these bytes is told with its place; the other lesson still opens.
+#[track_caller]
+fn check_broken(bytes: &[u8], place: &str) {
+    let home = tempfile::tempdir().expect("a folder");
+    let copy = |name: &str| {
+        fs::copy(common::lessons().join(name), home.path().join(name)).expect("writable");
+    };
+    copy("01-ggx-d.toml");
+    fs::write(home.path().join("02-broken.toml"), bytes).expect("writable");
+    let folder = home.path().display().to_string();
+    let place = format!("02-broken.toml:{place}");
+
+    let check = run(&["check", &folder]);
+    assert_eq!(check.status.code(), Some(1), "{}", stderr(&check));
+    assert!(stdout(&check).contains(&place), "{}", stdout(&check));
+    for format in ["json", "github", "junit"] {
+        let check = run(&["check", &folder, "--format", format]);
+        assert_eq!(check.status.code(), Some(1), "{}", stderr(&check));
+    }
+    let list = run(&["list", "--json", "--lessons", &folder]);
+    assert_eq!(list.status.code(), Some(0), "{}", stderr(&list));
+    assert!(stderr(&list).contains(&place), "{}", stderr(&list));
+    assert_eq!(json(&stdout(&list))[0]["id"], "ggx-d");
+    let learn = run(&["learn", "broken", "--plain", "--lessons", &folder]);
+    assert_eq!(learn.status.code(), Some(2));
+    assert!(stderr(&learn).contains(&place), "{}", stderr(&learn));
+}
+
+#[test]
+fn a_broken_lesson_closes_no_other() {
+    check_broken(b"", "1:1");
+    check_broken(b"format = 1\nid = \"x\xff\"\n", "2:8");
+    check_broken(b"\xff\xfef\0o\0", "1:1");
+    check_broken(b"format = 1\nid = \"x\n", "2:8");
+    check_broken("[".repeat(100_000).as_bytes(), "1:");
+    check_broken(b"format = 1\nid = \"\0\"\n", "2:7");
+}
+
+#[test]
+fn without_any_lesson_nothing_is_taught() {
+    let home = tempfile::tempdir().expect("a folder");
+    fs::write(home.path().join("01-x.toml"), "").expect("writable");
+    let folder = home.path().display().to_string();
+    check_refused(
+        &["render", "--lessons", &folder],
+        &["01-x.toml:1:1", "--lessons"],
+    );
+}
+
 #[test]
 fn pictures_are_written() {
     let home = tempfile::tempdir().expect("a folder");
@@ -398,6 +455,14 @@ fn bad_usage_says_what_to_do() {
     );
     check_refused(&["render", "nothing"], &["nothing"]);
     check_refused(&["evla"], &["eval"]);
+    for args in [
+        &["mark", "--json"][..],
+        &["eval"],
+        &["render", "--size", "3"],
+    ] {
+        let complaint = stderr(&run(args));
+        assert_eq!(complaint.lines().count(), 1, "{args:?}: {complaint}");
+    }
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! What the command line accepts. Types only: `commands` does the work.
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -101,7 +102,7 @@ pub struct Eval {
     #[arg(
         value_name = "EXPR",
         required_unless_present = "batch",
-        allow_negative_numbers = true
+        value_parser = unmarked
     )]
     pub expressions: Vec<String>,
     /// Compute in this precision
@@ -113,6 +114,31 @@ pub struct Eval {
     /// Read one expression a line from FILE (`-`: standard input); prints JSON
     #[arg(long, value_name = "FILE", conflicts_with = "expressions")]
     pub batch: Option<PathBuf>,
+}
+
+/// Stands before an expression that begins with a minus sign, which clap would take for
+/// options; no expression begins with it by itself.
+const NO_OPTION: char = '\u{2060}';
+
+fn unmarked(expression: &str) -> Result<String, std::convert::Infallible> {
+    Ok(expression.trim_start_matches(NO_OPTION).to_owned())
+}
+
+/// The command line, with `-2^2` after `eval` marked as the expression that it is.
+pub fn arguments(given: impl Iterator<Item = OsString>) -> Vec<OsString> {
+    let mut is_eval = false;
+    given
+        .map(|argument| {
+            let text = argument.to_str().unwrap_or_default();
+            let minus = text.len() > 1 && text.starts_with('-') && !text.starts_with("--");
+            let marked = is_eval && minus && text != "-h";
+            is_eval |= text == "eval";
+            match marked {
+                true => format!("{NO_OPTION}{text}").into(),
+                false => argument,
+            }
+        })
+        .collect()
 }
 
 #[derive(Debug, Args)]

@@ -36,6 +36,20 @@ impl Failure {
         Self::Unusable(line.into())
     }
 
+    /// What clap says of a command line, on one line: what is wrong, and what to type.
+    pub fn usage(error: &clap::Error) -> Self {
+        let text = error.render().to_string();
+        let said = text.split("\n\nUsage:").next().unwrap_or_default();
+        let words: Vec<&str> = said.split_whitespace().collect();
+        let said = words.join(" ");
+        let said = said
+            .strip_prefix("error: ")
+            .unwrap_or(&said)
+            .replace(" For more information, try '--help'.", "")
+            .replace(" tip: ", "; ");
+        Self::Unusable(format!("{said}; `lobe help` shows what there is"))
+    }
+
     /// A file that could not be read.
     pub fn unreadable(path: &Path, error: &io::Error) -> Self {
         Self::Unusable(format!(

@@ -22,8 +22,15 @@ use clap::Parser as _;
 
 fn main() -> ExitCode {
     quieten_graphics_driver();
-    let cli = cli::Cli::parse();
-    exit::code_of(commands::run(cli))
+    match cli::Cli::try_parse_from(cli::arguments(std::env::args_os())) {
+        Ok(cli) => exit::code_of(commands::run(cli)),
+        // `--help` and `--version` come as errors too, and go to standard output.
+        Err(error) if !error.use_stderr() => {
+            let _ = error.print();
+            ExitCode::SUCCESS
+        }
+        Err(error) => exit::code_of(Err(exit::Failure::usage(&error))),
+    }
 }
 
 /// Mesa's layer that chooses a device looks for a display and complains on standard error where
