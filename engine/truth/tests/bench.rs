@@ -22,6 +22,8 @@ fn everything_is_measured() {
         ("specular", "batch"),
         ("specular", "hoisted"),
         ("specular_rgb", "call"),
+        ("diffuse_hammon for walk", "20,000 walks"),
+        ("albedo", "quadrature"),
     ] {
         assert!(
             rows.iter()

@@ -178,6 +178,7 @@ fn table_row(row: &Row) -> String {
 /// About four digits.
 fn short(x: f64) -> String {
     match x {
+        _ if x < 0.01 => format!("{x:.1e}"),
         _ if x < 10.0 => format!("{x:.3}"),
         _ if x < 100.0 => format!("{x:.2}"),
         _ if x < 1000.0 => format!("{x:.1}"),
