@@ -74,7 +74,7 @@ fn feedback(
             "I cannot tell",
             vec![text(
                 "I am not sure that I read this right, and will not guess. Here is a model \
-                 answer; say yourself what yours makes of it. It is kept as your own marking.",
+                 answer: mark your own against it. It is kept as your own marking.",
             )],
         ));
         blocks.extend(lesson.prose(&explain.model_answer, &Values::new()));
