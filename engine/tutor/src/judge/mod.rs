@@ -226,6 +226,7 @@ impl Judge {
                 });
             }
         }
+        self.count_words_once(&mut judgement);
         judgement.verdict = verdict(
             &self.rubric,
             &judgement.met,
@@ -233,6 +234,30 @@ impl Judge {
             &judgement.unsure,
         );
         judgement
+    }
+
+    /// The same words are one slip, not two: where they say one that does not block, they are
+    /// not held against the learner under the name of one that does.
+    fn count_words_once(&self, judgement: &mut Judgement) {
+        let blocks = |id: &str| {
+            let mut all = self.rubric.misconception.iter();
+            all.find(|m| m.id == id).map(|m| m.blocking)
+        };
+        let why = &judgement.why;
+        let harmless = |it: &&Why| blocks(&it.id) == Some(false);
+        let spans: Vec<(usize, usize)> = why
+            .iter()
+            .filter(harmless)
+            .map(|it| (it.start, it.end))
+            .collect();
+        let excused: Vec<String> = why
+            .iter()
+            .filter(|it| blocks(&it.id) == Some(true) && spans.contains(&(it.start, it.end)))
+            .map(|it| it.id.clone())
+            .collect();
+        judgement.misconceptions.retain(|id| !excused.contains(id));
+        judgement.unsure.retain(|id| !excused.contains(id));
+        judgement.why.retain(|it| !excused.contains(&it.id));
     }
 
     fn read(&self, answer: &str) -> Reading {
