@@ -38,7 +38,7 @@ fn learn(home: &Path, lesson: &str, folder: &str, input: &str) -> std::process::
 
 #[test]
 fn the_same_script_gives_the_same_text() {
-    for lesson in ["ggx-d", "smith-g2"] {
+    for lesson in ["ggx-d", "smith-g2", "schlick-fresnel"] {
         let home = tempfile::tempdir().expect("a folder");
         let first = learn(home.path(), lesson, "first", &script());
         let second = learn(home.path(), lesson, "second", &script());
@@ -46,8 +46,7 @@ fn the_same_script_gives_the_same_text() {
         let text = stdout(&first);
         assert_eq!(text, stdout(&second));
         assert!(
-            text.trim_end()
-                .ends_with("The same command goes on from here."),
+            text.lines().any(|line| line.starts_with("Saved.")),
             "{text}"
         );
         let home = home.path().display().to_string();
