@@ -6,7 +6,7 @@
 
 use crate::fresnel::{conductor_rgb, f_dielectric};
 use crate::real::{Real, lit, zero_unless_nan};
-use crate::vector::{Vector, add, normalize, reflect};
+use crate::vector::{Vector, add, normalize, reflect, rescued, tamed};
 use std::f64::consts::{FRAC_1_PI, PI};
 
 /// A GGX surface: its widths along the tangent and the bitangent.
@@ -53,6 +53,15 @@ impl<R: Real> Ggx<R> {
         }
     }
 
+    /// The same with widths whose squares can be computed with.
+    fn tamed(&self) -> Ggx<R> {
+        let width = |alpha: R| alpha.abs().at_least(lit(1e-9)).at_most(lit(1e6));
+        Ggx {
+            alpha_x: width(self.alpha_x),
+            alpha_y: width(self.alpha_y),
+        }
+    }
+
     /// x and y of a vector, each times its width.
     #[inline(always)]
     fn stretched(&self, v: Vector<R>) -> (R, R) {
@@ -74,7 +83,12 @@ impl<R: Real> Ggx<R> {
     #[inline(always)]
     pub fn d(&self, h: impl Into<Vector<R>>) -> R {
         let h = h.into();
-        self.d_squares(h, h.map(|x| x * x))
+        let value = self.d_squares(h, h.map(|x| x * x));
+        let ggx = *self;
+        rescued(value, [h], move || {
+            let h = tamed(h);
+            ggx.tamed().d_squares(h, h.map(|x| x * x))
+        })
     }
 
     /// D of the half vector of `l` and `v`, of which the sums' rounding errors are kept: it
@@ -82,6 +96,15 @@ impl<R: Real> Ggx<R> {
     #[inline(always)]
     pub fn d_between(&self, l: impl Into<Vector<R>>, v: impl Into<Vector<R>>) -> R {
         let (l, v) = (l.into(), v.into());
+        let value = self.d_of_sum(l, v);
+        let ggx = *self;
+        rescued(value, [l, v], move || {
+            ggx.tamed().d_of_sum(tamed(l), tamed(v))
+        })
+    }
+
+    #[inline(always)]
+    fn d_of_sum(&self, l: Vector<R>, v: Vector<R>) -> R {
         let (x, y, z) = (l[0].two_sum(v[0]), l[1].two_sum(v[1]), l[2].two_sum(v[2]));
         self.d_squares([x.0, y.0, z.0], [square(x), square(y), square(z)])
     }
@@ -111,6 +134,13 @@ impl<R: Real> Ggx<R> {
     #[inline(always)]
     pub fn lambda(&self, v: impl Into<Vector<R>>) -> R {
         let v = v.into();
+        let value = self.lambda_of(v);
+        let ggx = *self;
+        rescued(value, [v], move || ggx.tamed().lambda_of(tamed(v)))
+    }
+
+    #[inline(always)]
+    fn lambda_of(&self, v: Vector<R>) -> R {
         if v[2] <= lit(0.0) {
             return lit::<R>(1.0) / lit(0.0);
         }
@@ -134,6 +164,15 @@ impl<R: Real> Ggx<R> {
     #[inline(always)]
     pub fn visibility(&self, l: impl Into<Vector<R>>, v: impl Into<Vector<R>>) -> R {
         let (l, v) = (l.into(), v.into());
+        let value = self.visibility_of(l, v);
+        let ggx = *self;
+        rescued(value, [l, v], move || {
+            ggx.tamed().visibility_of(tamed(l), tamed(v))
+        })
+    }
+
+    #[inline(always)]
+    fn visibility_of(&self, l: Vector<R>, v: Vector<R>) -> R {
         if l[2] < lit(0.0) || v[2] < lit(0.0) {
             return zero_unless_nan([l[2], v[2]]);
         }
@@ -144,7 +183,12 @@ impl<R: Real> Ggx<R> {
     #[inline(always)]
     pub fn eval(&self, l: impl Into<Vector<R>>, v: impl Into<Vector<R>>) -> R {
         let (l, v) = (l.into(), v.into());
-        self.d_between(l, v) * self.visibility(l, v)
+        let value = self.d_of_sum(l, v) * self.visibility_of(l, v);
+        let ggx = *self;
+        rescued(value, [l, v], move || {
+            let (ggx, l, v) = (ggx.tamed(), tamed(l), tamed(v));
+            ggx.d_of_sum(l, v) * ggx.visibility_of(l, v)
+        })
     }
 
     /// Density with which [`Ggx::sample`] draws `l` for a view `v`, in 1/sr, for `l` above the
@@ -155,7 +199,12 @@ impl<R: Real> Ggx<R> {
         if sampler == Sampler::Cosine {
             return l[2].at_least(lit(0.0)) * lit(FRAC_1_PI);
         }
-        self.d_between(l, v) * self.visible_share(v, sampler)
+        let value = self.d_of_sum(l, v) * self.visible_share(v, sampler);
+        let ggx = *self;
+        rescued(value, [l, v], move || {
+            let (ggx, l, v) = (ggx.tamed(), tamed(l), tamed(v));
+            ggx.d_of_sum(l, v) * ggx.visible_share(v, sampler)
+        })
     }
 
     /// Density over D: 1/(2 (N·V + sqrt(…))), the normalisation of the visible normals over
@@ -280,6 +329,26 @@ fn cosine_direction<R: Real>(u: [R; 2]) -> Vector<R> {
 #[inline(always)]
 pub fn v_dot_h_and_rest<R: Real>(l: impl Into<Vector<R>>, v: impl Into<Vector<R>>) -> (R, R) {
     let (l, v) = (l.into(), v.into());
+    let (c, rest) = half_angle(l, v);
+    if c <= lit(2.0) {
+        (c, rest)
+    } else {
+        half_angle_of_directions(l, v)
+    }
+}
+
+/// The same for vectors far from length 1, of which only the directions count.
+#[cold]
+#[inline(never)]
+fn half_angle_of_directions<R: Real>(l: Vector<R>, v: Vector<R>) -> (R, R) {
+    match l.into_iter().chain(v).find(|x| x.is_nan()) {
+        Some(nan) => (nan, nan),
+        None => half_angle(tamed(l), tamed(v)),
+    }
+}
+
+#[inline(always)]
+fn half_angle<R: Real>(l: Vector<R>, v: Vector<R>) -> (R, R) {
     let one = lit::<R>(1.0);
     let c = lit::<R>(0.5) * sum_squared(l, v).sqrt();
     let rest = if c < lit(0.5) {
@@ -355,10 +424,22 @@ impl<R: Real> Fresnel<R> {
                 let power = rest.pow5();
                 f0.map(|f0| f0 + (lit::<R>(1.0) - f0) * power)
             }
-            Fresnel::Dielectric { eta } => [f_dielectric(eta, c); 3],
-            Fresnel::Conductor { n, k } => conductor_rgb(n, k, c),
+            Fresnel::Dielectric { eta } => exact_dielectric(eta, c),
+            Fresnel::Conductor { n, k } => exact_conductor(n, k, c),
         }
     }
+}
+
+/// Not inlined: its size would keep the rest of a lobe from being.
+#[inline(never)]
+fn exact_dielectric<R: Real>(eta: R, c: R) -> [R; 3] {
+    [f_dielectric(eta, c); 3]
+}
+
+/// Not inlined either.
+#[inline(never)]
+fn exact_conductor<R: Real>(n: [R; 3], k: [R; 3], c: R) -> [R; 3] {
+    conductor_rgb(n, k, c)
 }
 
 /// A whole specular lobe: GGX with mirrors of some material.
@@ -376,7 +457,12 @@ impl<R: Real> Specular<R> {
     pub fn eval_cos(&self, l: impl Into<Vector<R>>, v: impl Into<Vector<R>>) -> [R; 3] {
         let (l, v) = (l.into(), v.into());
         let value = self.ggx.eval(l, v) * l[2].at_least(lit(0.0));
-        self.fresnel.eval(l, v).map(|f| f * value)
+        let [r, g, b] = self.fresnel.eval(l, v).map(|f| f * value);
+        if (r + g + b).is_nan() {
+            // ∞ · 0 at the peak or on the horizon of a mirror: nothing leaves there.
+            return [r, g, b].map(|value| rescued(value, [l, v], || lit(0.0)));
+        }
+        [r, g, b]
     }
 
     /// Draws a light for a view: the direction, its density and BRDF · N·L / density.

@@ -43,3 +43,43 @@ pub(crate) fn normalize<R: Real>(a: Vector<R>) -> Vector<R> {
 pub(crate) fn reflect<R: Real>(v: Vector<R>, m: Vector<R>) -> Vector<R> {
     sub(scale(m, lit::<R>(2.0) * dot(v, m)), v)
 }
+
+/// Of length 1, however long or short it was; up, if it has no length.
+pub(crate) fn tamed<R: Real>(a: Vector<R>) -> Vector<R> {
+    let largest = a[0].abs().at_least(a[1].abs()).at_least(a[2].abs());
+    if largest > lit(0.0) && largest.is_finite() {
+        normalize(a.map(|x| x / largest))
+    } else {
+        [lit(0.0), lit(0.0), lit(1.0)]
+    }
+}
+
+/// `value`, or what `again` gives where that is a NaN that no vector contains: for lengths and
+/// widths whose squares overflow or vanish. 0 if that is none either.
+#[inline(always)]
+pub(crate) fn rescued<R: Real, const N: usize>(
+    value: R,
+    vectors: [Vector<R>; N],
+    again: impl FnOnce() -> R,
+) -> R {
+    if value.is_nan() {
+        rescue(value, vectors, again)
+    } else {
+        value
+    }
+}
+
+/// Out of the way, so that what usually happens stays small.
+#[cold]
+#[inline(never)]
+fn rescue<R: Real, const N: usize>(
+    nan: R,
+    vectors: [Vector<R>; N],
+    again: impl FnOnce() -> R,
+) -> R {
+    if vectors.iter().any(|v| v.iter().any(|x| x.is_nan())) {
+        return nan;
+    }
+    let value = again();
+    if value.is_nan() { lit(0.0) } else { value }
+}
