@@ -244,7 +244,8 @@ impl Judge {
             all.find(|m| m.id == id).map(|m| m.blocking)
         };
         let why = &judgement.why;
-        let harmless = |it: &&Why| blocks(&it.id) == Some(false);
+        let harmless =
+            |it: &&Why| blocks(&it.id) == Some(false) && judgement.misconceptions.contains(&it.id);
         let spans: Vec<(usize, usize)> = why
             .iter()
             .filter(harmless)
