@@ -99,12 +99,21 @@ fn the_end_of_input_keeps_what_was_typed_and_comes_back_to_it() {
 }
 
 #[test]
+fn what_was_answered_to_one_line_is_not_said_again() {
+    let home = tempfile::tempdir().expect("a folder");
+    let text = stdout(&learn(home.path(), "smith-g2", "p", ":hint\n:foo\nabc\n"));
+    assert_eq!(text.matches("There is no hint here.").count(), 1, "{text}");
+    assert!(text.contains(":foo is no command."), "{text}");
+}
+
+#[test]
 fn a_folder_that_cannot_be_written_is_said_before_the_lesson_starts() {
     let home = tempfile::tempdir().expect("a folder");
     fs::write(home.path().join("taken"), "a file").expect("writable");
     let output = learn(home.path(), "smith-g2", "taken", "\n\n");
     let text = stdout(&output);
     let said = text.find("cannot be saved").expect("it is said");
+    assert!(text.contains("there is a file where"), "{text}");
     let first_screen = text.find("## ").expect("a first screen");
     assert!(said < first_screen, "{text}");
     assert!(text.contains("! Not saved:"), "{text}");

@@ -37,6 +37,7 @@ pub fn run(sitting: Sitting, store: &Store) -> Result<Done, Failure> {
         echo: !io::stdin().is_terminal(),
         sitting,
         seen: None,
+        told: true,
         said_unsaved: false,
         editor: None,
     };
@@ -50,6 +51,8 @@ struct Plain {
     echo: bool,
     /// What was printed last: its key, how many blocks, the input asked for.
     seen: Option<View>,
+    /// Whether the last line of input reached the lesson: its answer is news.
+    told: bool,
     said_unsaved: bool,
     /// Lines of the explanation being typed.
     editor: Option<Vec<String>>,
@@ -103,6 +106,7 @@ impl Plain {
 
     /// Takes one line of input. True where the lesson is left.
     fn take(&mut self, line: &str) -> Result<bool, Failure> {
+        self.told = false;
         let view = self.sitting.view();
         let command = line.trim();
         let msg = match command {
@@ -179,6 +183,7 @@ impl Plain {
     }
 
     fn tell(&mut self, msg: Msg) -> bool {
+        self.told = true;
         self.sitting.tell(msg).contains(&Request::Leave)
     }
 
@@ -202,7 +207,7 @@ impl Plain {
             output::line("")?;
             print(&text::plain(block, WIDTH, &describe))?;
         }
-        if let Some(note) = &view.note {
+        if let Some(note) = view.note.as_ref().filter(|_| self.told) {
             output::line("")?;
             print(&text::wrap_plain(note, WIDTH, "! ", "  "))?;
         }

@@ -62,7 +62,10 @@ impl Sitting {
                 says: format!(
                     "Your answers cannot be saved: {why}. They are kept in memory, and saving is tried again after every answer."
                 ),
-                place: Some(store.folder.display().to_string()),
+                place: Some(format!(
+                    "answers cannot be saved in {}",
+                    store.folder.display()
+                )),
             });
         }
         for unreadable in &logs.unreadable {

@@ -111,6 +111,9 @@ impl Store {
 
     /// Whether an answer could be saved now; else why not. Leaves nothing behind.
     pub fn try_out(&self) -> Result<(), String> {
+        if self.folder.exists() && !self.folder.is_dir() {
+            return Err("there is a file where the folder should be".into());
+        }
         let attempt = || {
             fs::create_dir_all(&self.folder)?;
             let path = self
