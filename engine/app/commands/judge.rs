@@ -103,7 +103,12 @@ fn batch(shelf: &Shelf, path: &Path) -> Result<Done, Failure> {
                 index + 1
             ))
         })?;
-        let explain = find(shelf, &answer.item)?;
+        let explain = find(shelf, &answer.item).map_err(|failure| match failure {
+            Failure::Unusable(why) => {
+                Failure::unusable(format!("{}:{}: {why}", path.display(), index + 1))
+            }
+            other => other,
+        })?;
         let judgement = explain.judge.judge(&answer.text);
         let judged = json(Some(&answer.id), &answer.item, &judgement);
         out.push_str(&serde_json::to_string(&judged).unwrap_or_default());
