@@ -28,8 +28,11 @@ pub fn transcript(lesson: &Arc<Lesson>, record: Option<&Record>) -> String {
             line(
                 &mut out,
                 &format!(
-                    "Lesson `{}`, begun {}{ended}, seed {}, {answers} answers.",
-                    header.lesson, header.started, header.seed
+                    "Lesson `{}`, begun {}{ended}, seed {}, {answers} answer{}.",
+                    header.lesson,
+                    header.started,
+                    header.seed,
+                    if answers == 1 { "" } else { "s" }
                 ),
             );
             let events = record.events();
