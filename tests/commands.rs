@@ -250,6 +250,14 @@ fn answers_are_judged() {
     )));
     assert_eq!(objects[0]["id"], 1);
     assert_eq!(objects[0]["verdict"], judged["verdict"]);
+    let unknown = serde_json::json!({"id": 1, "item": "smith-g2/explain-9", "text": ""});
+    let output = run_with(
+        home.path(),
+        &["judge", "--batch", "-"],
+        &format!("\n{unknown}\n"),
+    );
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("-:2: "), "{}", stderr(&output));
     assert_eq!(
         (&objects[1]["id"], &objects[1]["verdict"]),
         (&"b".into(), &"fail".into())
@@ -343,6 +351,38 @@ fn a_broken_lesson_closes_no_other() {
     check_broken(b"format = 1\nid = \"x\n", "2:8");
     check_broken("[".repeat(100_000).as_bytes(), "1:");
     check_broken(b"format = 1\nid = \"\0\"\n", "2:7");
+}
+
+/// Findings of these lesson files: one alone, or several without the ones that they build on.
+#[track_caller]
+fn check_fine(files: &[&str]) {
+    let paths: Vec<String> = files
+        .iter()
+        .map(|file| common::lessons().join(file).display().to_string())
+        .collect();
+    let args = ["check", "--format", "json"].into_iter();
+    let args: Vec<&str> = args.chain(paths.iter().map(String::as_str)).collect();
+    let output = run(&args);
+    assert_eq!(stdout(&output), "", "{files:?}");
+    assert_eq!(output.status.code(), Some(0), "{files:?}");
+}
+
+#[test]
+fn lessons_are_checked_without_the_ones_they_build_on() {
+    check_fine(&["02-smith-g2.toml"]);
+    check_fine(&["02-smith-g2.toml", "02-smith-g2.toml"]);
+    check_fine(&["02-smith-g2.toml", "03-schlick-fresnel.toml"]);
+
+    // Lesson 1 is broken: lesson 2, which needs it, is not to blame.
+    let home = tempfile::tempdir().expect("a folder");
+    let second = "02-smith-g2.toml";
+    fs::copy(common::lessons().join(second), home.path().join(second)).expect("writable");
+    fs::write(home.path().join("01-ggx-d.toml"), "format = 1\nid = ?\n").expect("writable");
+    let folder = home.path().display().to_string();
+    for finding in json(&stdout(&run(&["check", &folder, "--format", "json"]))) {
+        let file = finding["file"].as_str().expect("a file");
+        assert!(file.ends_with("01-ggx-d.toml"), "{finding}");
+    }
 }
 
 #[test]

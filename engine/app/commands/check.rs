@@ -19,7 +19,10 @@ pub fn run(folders: &Folders, args: &Check) -> Result<Done, Failure> {
     } else {
         Shelf::of_paths(&args.paths)?
     };
-    let Report { findings, draws } = report(&shelf);
+    // Among files picked one by one, or beside a broken one, what a lesson refers to may be
+    // there and only not be seen.
+    let whole = args.paths.iter().all(|path| path.is_dir()) && shelf.broken().next().is_none();
+    let Report { findings, draws } = report(&shelf, whole);
     let wrong = findings
         .iter()
         .any(|finding| finding.severity == Severity::Error);
@@ -35,13 +38,24 @@ pub fn run(folders: &Folders, args: &Check) -> Result<Done, Failure> {
 }
 
 /// What reading found, then what computing found, in the order of the files.
-fn report(shelf: &Shelf) -> Report {
+fn report(shelf: &Shelf, whole: bool) -> Report {
     let mut findings: Vec<Finding> = shelf
         .files
         .iter()
         .flat_map(|file| file.findings.clone())
         .collect();
-    let computed = tutor::check::report_all(shelf.lessons().map(AsRef::as_ref));
+    let lessons = shelf.lessons().map(AsRef::as_ref);
+    let computed = if whole {
+        tutor::check::report_all(lessons)
+    } else {
+        lessons
+            .map(tutor::check::report)
+            .fold(Report::default(), |mut all, one| {
+                all.findings.extend(one.findings);
+                all.draws.extend(one.draws);
+                all
+            })
+    };
     findings.extend(computed.findings);
     let place = |finding: &Finding| {
         shelf
