@@ -184,7 +184,7 @@ fn a_transcript_tells_what_was_taught_and_said() {
     ));
     let text = transcript::transcript(&small(), Some(&record));
     for part in [
-        "# A small lesson\n\nLesson `small`, begun 2026-11-20T10:00:00Z, not finished, seed 7, 1 answers.",
+        "# A small lesson\n\nLesson `small`, begun 2026-11-20T10:00:00Z, not finished, seed 7, 1 answer.",
         "## Walkthrough\n\n### 1 of 2: First\n\nA square has four equal sides.",
         "     = 9.0\n```",
         "*Left out.*",
