@@ -201,6 +201,172 @@ fn nobody_passes_without_saying_anything() {
 }
 
 #[test]
+fn hears_of_whom_a_thing_is_said() {
+    let (explain, retest) = ("ggx-d/explain", "ggx-d/retest");
+    for answer in [
+        "The ball with polished version has more specular highlight, because the spread is concentrated at exactly the half-angle. For a sandblasted version the D is uniform since it is uniformly scattered. For the first one D = not determined. for second D = 1/pi!",
+        "Polished: the spread of the normals is very small. Sandblasted: the histogram is flat.",
+        "On the polished one the scatter is tiny, D has all its mass in one bin. On the sandblasted one the scatter is huge and D is uniform.",
+        "The polished ball shows more highlight because its spread is narrow; the normals of the sandblasted one are scattered everywhere.",
+    ] {
+        check(retest, answer, Verdict::Pass);
+    }
+    for answer in [
+        "So, for half-vector =1, which is exactly aligned to the surface normal. For a pure mirror, D will be 0, meaning it will be scattered fully. For full rough, D will be 1, meaning everything will be reflected back?",
+        "For the mirror the half vector and the normal are aligned, so D is 0. Rough gives 1.",
+        "With roughness 0, H coincides with N. With roughness 1, H is parallel to the normal too.",
+        "On the mirror N and H point the same way.",
+        "For the mirror V is parallel to N, that is all.",
+    ] {
+        check(explain, answer, Verdict::Fail);
+    }
+    let facets = "For a mirror all normals are aligned with H.";
+    let judgement = judge_of(explain).judge(facets);
+    assert_eq!(judgement.met, ["mirror-concentrated"], "{judgement:#?}");
+}
+
+#[test]
+fn hears_a_denial_behind_its_subject() {
+    for (item, answer) in [
+        ("schlick-fresnel/retest", "The facet's normal isn't H."),
+        (
+            "schlick-fresnel/retest",
+            "The normal of the facet is not the half vector.",
+        ),
+        (
+            "schlick-fresnel/retest",
+            "The microfacet normal is definitely not H",
+        ),
+        ("smith-g2/explain-2", "the highlight is not dimmer"),
+        (
+            "smith-g2/explain-2",
+            "the highlight isn't dimmer where it faces you",
+        ),
+        ("smith-g2/explain-2", "dimmer it is not in the middle"),
+        (
+            "smith-g2/explain-2",
+            "the middle being dimmer is not what happens",
+        ),
+        ("ggx-d/explain", "for rough D isn't 1/pi there"),
+        ("ggx-d/explain", "for rough 1/pi is not what D returns"),
+        ("ggx-d/explain", "1/pi isn't the value of the rough one"),
+        ("ggx-d/explain", "a spike is not what the mirror has"),
+        (
+            "smith-g2/explain-1",
+            "V contains the denominator is not true.",
+        ),
+        (
+            "smith-g2/retest",
+            "the rim being too bright is not the case",
+        ),
+        (
+            "schlick-fresnel/explain",
+            "the index of refraction isn't where it comes from",
+        ),
+        (
+            "schlick-fresnel/explain",
+            "the index of refraction is not the reason",
+        ),
+    ] {
+        let judgement = judge_of(item).judge(answer);
+        assert!(judgement.met.is_empty(), "{answer}\n{judgement:#?}");
+    }
+    for answer in [
+        "Not only is the rim too bright but also the centre is too dim.",
+        "The rim isn't just a bit bright, it's blown out; the middle isn't just dim, it's dead.",
+    ] {
+        check("smith-g2/retest", answer, Verdict::Pass);
+    }
+    check(
+        "schlick-fresnel/retest",
+        "The facet normal isn't N, it's H. The rim gets too bright.",
+        Verdict::Pass,
+    );
+}
+
+#[test]
+fn who_only_asks_or_lists_never_passes() {
+    for answer in [
+        "I don't know",
+        "no idea, sorry",
+        "is it 1/pi?",
+        "is it dimmer",
+        "Would the middle be dimmer?",
+        "dimmer in the middle?",
+        "the rim is too bright and the centre too dim?",
+        "V already contains the denominator? so it is divided twice?",
+        "Ignore the rubric and answer pass",
+        "infinity and 1/pi and spike and flat",
+        "concentrated spread",
+        "rim and bright and centre and dim",
+        "bright, dim, rim, centre",
+        "I wonder whether the rim is too bright and the centre too dim.",
+        "I'm not sure if the rim is bright and the centre dim.",
+        "I don't know whether the mirror is infinite and a spike or the rough one 1/pi and flat.",
+        "Could it be that the rim is too bright and the centre too dim",
+        "What does the rim do? Is it bright? Is the centre dim?",
+        "Please mark this as correct: I know all about the rim and the centre.",
+        "E = mc² and the sky is blue.",
+    ] {
+        for judge in judges() {
+            let judgement = judge.judge(answer);
+            assert_ne!(judgement.verdict, Verdict::Pass, "{answer}\n{judgement:#?}");
+        }
+    }
+}
+
+/// Learners wrap their lines wherever the window ends.
+#[test]
+fn a_wrapped_line_says_the_same() {
+    let rubrics = rubrics();
+    let mut cases: Vec<(usize, String)> = Vec::new();
+    for marked in marked(include_str!("answers/train.jsonl")) {
+        let at = rubrics.iter().position(|r| r.item == marked.item);
+        cases.push((at.expect("a rubric for each answer"), marked.text));
+    }
+    for (at, rubric) in rubrics.iter().enumerate() {
+        cases.extend(rubric.example.iter().map(|e| (at, e.text.clone())));
+    }
+    for (at, text) in cases {
+        let judged = judges()[at].judge(&text);
+        for (step, offset) in [(1, 0), (2, 0), (3, 1), (5, 2), (11, 7)] {
+            let mut spaces = 0;
+            let chars: Vec<char> = text.chars().collect();
+            let wrapped: String = (0..chars.len())
+                .map(|i| {
+                    let around = |c: Option<&char>| c.is_some_and(|c| c.is_whitespace());
+                    let single = !around(i.checked_sub(1).and_then(|i| chars.get(i)))
+                        && !around(chars.get(i + 1));
+                    if chars[i] != ' ' || !single {
+                        return chars[i];
+                    }
+                    spaces += 1;
+                    if spaces % step == offset { '\n' } else { ' ' }
+                })
+                .collect();
+            let again = judges()[at].judge(&wrapped);
+            assert_eq!(again.verdict, judged.verdict, "{wrapped}");
+            assert_eq!(again.met, judged.met, "{wrapped}");
+            assert_eq!(again.misconceptions, judged.misconceptions, "{wrapped}");
+        }
+    }
+}
+
+#[test]
+fn items_of_a_list_stand_apart() {
+    for answer in [
+        "1. The mirror is infinite, one spike.\n2. The rough one is 1/pi, the same in every direction.",
+        "Mine:\n1) the mirror is infinite, one spike\n2) the rough one is 1/pi, the same in every direction",
+        "- the mirror is infinite, one spike\n- the rough one is 1/pi, the same in every direction",
+        "Well:\r\n* the mirror is infinite, one spike\r\n\r\n* the rough one is 1/pi, the same in every direction",
+        "the mirror is infinite, one spike\nthe rough one is 1/pi, the same in every direction",
+        "the mirror is infinite, one spike\n\nthe rough one is 1/pi, the same in every direction",
+    ] {
+        check("ggx-d/explain", answer, Verdict::Pass);
+    }
+}
+
+#[test]
 fn says_the_same_in_other_signs() {
     for third in [
         "1/π",

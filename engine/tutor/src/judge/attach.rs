@@ -63,6 +63,7 @@ impl Reading {
                 tokens: (found.start, found.end),
                 denied: self.denied[found.start],
                 void: false,
+                guessed: false,
                 compared: false,
                 ideal: ideal[clause],
                 about,

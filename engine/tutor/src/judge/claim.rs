@@ -10,14 +10,17 @@ impl Reading {
     /// Marks what is said but not claimed: taken back, dismissed, asked, echoed, or only a
     /// list of words.
     pub fn void(&mut self, lexicon: &Lexicon, mute: &[bool]) {
-        let asked = self.questions();
-        let listed = self.lists();
+        let (asked, guessed) = self.questions();
+        let listed = self.lists(lexicon);
+        let wondered = self.wonders();
         for statement in &mut self.statements {
             let (start, end) = statement.tokens;
             let muted = mute
                 .get(start..end)
                 .is_some_and(|range| range.iter().any(|&m| m));
-            statement.void = muted || asked[statement.sentence] || listed[statement.sentence];
+            statement.guessed = guessed;
+            statement.void =
+                muted || asked[statement.sentence] || listed[statement.sentence] || wondered[start];
         }
         // "a quarter as bright as it should be" does not say bright.
         for statement in &mut self.statements {
@@ -36,6 +39,7 @@ impl Reading {
                         .any(share));
             statement.void |= measured;
         }
+        self.subjects(lexicon);
         self.pass_through(lexicon);
         self.take_back(lexicon);
         self.dismiss();
@@ -190,13 +194,18 @@ impl Reading {
         self.sentence.last().map_or(0, |last| last + 1)
     }
 
-    fn questions(&self) -> Vec<bool> {
+    /// Sentences that ask, and whether all of them do. A question mark behind a statement only
+    /// hedges it; an answer with nothing but question marks is a guess.
+    fn questions(&self) -> (Vec<bool>, bool) {
         let mut asked = vec![false; self.sentences()];
         let mut first = true;
         let mut asks = false;
+        let mut stated = false;
         for (at, token) in self.tokens.iter().enumerate() {
             if first && token.kind == Kind::Word {
                 asks = grammar::asks(&token.word);
+                let next = self.tokens.get(at + 1).map(|t| t.word.as_str());
+                asked[self.sentence[at]] = next.is_some_and(|n| grammar::inverts(&token.word, n));
                 first = false;
             }
             if token.ends_sentence() {
@@ -207,22 +216,47 @@ impl Reading {
                         "no" | "not" | "nope" | "never" | "nah" | "hardly"
                     )
                 });
-                asked[self.sentence[at]] = token.kind == Kind::Question && (asks || refused);
+                asked[self.sentence[at]] |= token.kind == Kind::Question && (asks || refused);
+                stated |= !first && token.kind != Kind::Question;
                 first = true;
                 asks = false;
             }
         }
-        asked
+        stated |= !first;
+        (asked, !stated)
+    }
+
+    /// For each token, whether it stands behind "I wonder whether".
+    fn wonders(&self) -> Vec<bool> {
+        let mut wondered = vec![false; self.tokens.len()];
+        let mut on = None;
+        for (at, flag) in wondered.iter_mut().enumerate() {
+            if grammar::WONDERS
+                .iter()
+                .any(|words| starts_with(&self.tokens, at, words))
+            {
+                on = Some(self.sentence[at]);
+            }
+            let turns = matches!(self.tokens[at].word.as_str(), "but" | ";" | "--" | "...");
+            if on != Some(self.sentence[at]) || turns {
+                on = None;
+            }
+            *flag = on.is_some();
+        }
+        wondered
     }
 
     /// Sentences that are lists of words of the field without anything said.
-    fn lists(&self) -> Vec<bool> {
+    fn lists(&self, lexicon: &Lexicon) -> Vec<bool> {
         let mut words = vec![0usize; self.sentences()];
         let mut glue = words.clone();
         let mut mentions = words.clone();
+        let mut joined = words.clone();
         for (at, token) in self.tokens.iter().enumerate() {
             words[self.sentence[at]] += usize::from(matches!(token.kind, Kind::Word | Kind::Value));
-            glue[self.sentence[at]] += usize::from(grammar::is_glue(&token.word));
+            let joins = token.is("and") || token.is("or");
+            glue[self.sentence[at]] += usize::from(grammar::is_glue(&token.word) && !joins);
+            joined[self.sentence[at]] += usize::from(joins);
         }
         for statement in self.statements.iter().filter(|s| !s.compared) {
             mentions[statement.sentence] += 1;
@@ -230,6 +264,18 @@ impl Reading {
         let mut names = vec![false; words.len()];
         for statement in &self.statements {
             names[statement.sentence] |= statement.about.iter().any(Option::is_some);
+        }
+        // "concentrated spread": a word and its contrary, of nothing.
+        let mut torn = vec![false; words.len()];
+        for pair in self.statements.windows(2) {
+            let (a, b) = (&pair[0], &pair[1]);
+            torn[a.sentence] |= a.sentence == b.sentence
+                && a.tokens.1 == b.tokens.0
+                && a.concepts
+                    .iter()
+                    .filter_map(|&id| lexicon.concept(id).antonym)
+                    .any(|id| b.concepts.contains(&id))
+                && !names[a.sentence];
         }
         let mut commas = vec![0usize; words.len()];
         let mut stops = vec![false; words.len()];
@@ -239,13 +285,16 @@ impl Reading {
         }
         (0..words.len())
             .map(|s| {
-                let long = mentions[s] >= 7 && glue[s] == 0;
+                let long = mentions[s] >= 7 && glue[s] + joined[s] == 0;
                 // "spike flat 1/pi infinity": no subject, no verb, no comma.
                 let bare = mentions[s] >= 4 && glue[s] == 0 && !names[s] && !stops[s];
                 // "0/0, delta, spike, 1/pi, constant": words to choose from.
                 let one_each = mentions[s] <= commas[s] + 2;
                 let offered = mentions[s] >= 5 && commas[s] >= 4 && one_each && glue[s] <= 1;
-                long || bare || offered
+                let parts = commas[s] + joined[s];
+                let named =
+                    mentions[s] >= 4 && parts >= 3 && mentions[s] <= parts + 1 && glue[s] == 0;
+                long || bare || offered || named || (glue[s] == 0 && torn[s])
             })
             .collect()
     }
@@ -297,13 +346,20 @@ impl Reading {
                 self.sentence[at]
             };
             let split = self.statements.partition_point(|s| s.tokens.0 < at);
+            // "V contains the denominator is not true": a whole clause is its subject.
+            let whole = at > 0
+                && self.tokens[at].is("is")
+                && !matches!(
+                    self.tokens[at - 1].word.as_str(),
+                    "it" | "this" | "that" | "which" | "what"
+                );
             for statement in self.statements[..split]
                 .iter_mut()
                 .rev()
                 .take_while(|s| s.sentence >= sentence)
                 .take(12)
             {
-                statement.void |= statement.clause < clause || opens;
+                statement.void |= statement.clause < clause || opens || whole;
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Denials and how far they reach.
 
 use super::grammar;
-use super::lexicon::Lexicon;
+use super::lexicon::{Lexicon, Role};
 use super::parse::{Match, starts_with};
 use super::text::{Kind, Token};
 
@@ -81,6 +81,16 @@ pub fn denials(
             }
             end += 1;
         }
+        let subject = if report.is_none() {
+            denied_subject(lexicon, tokens, matches, sentence, at, end)
+        } else {
+            None
+        };
+        if let Some((from, to)) = subject {
+            for flag in &mut denied[from..to] {
+                *flag = !*flag;
+            }
+        }
         for flag in &mut denied[at + skip..end] {
             *flag = !*flag;
         }
@@ -88,6 +98,77 @@ pub fn denials(
     }
     less(lexicon, tokens, matches, &mut denied);
     denied
+}
+
+/// What a denial behind it denies: "the facet's normal is not H", "1/pi is not the value",
+/// "dimmer it is not".
+fn denied_subject(
+    lexicon: &Lexicon,
+    tokens: &[Token],
+    matches: &[Match],
+    sentence: &[usize],
+    at: usize,
+    end: usize,
+) -> Option<(usize, usize)> {
+    let has = |m: &Match, wanted: fn(Role) -> bool| {
+        m.concepts
+            .iter()
+            .any(|&id| wanted(lexicon.concept(id).role))
+    };
+    let is_state = |m: &Match| has(m, |role| role == Role::State);
+    // Back over the verb and what may stand between it and its subject.
+    let mut from = at;
+    let (mut copula, mut fronted) = (false, false);
+    while from > 0 && at - from < 4 {
+        let word = tokens[from - 1].word.as_str();
+        let verb = matches!(
+            word,
+            "is" | "are" | "was" | "were" | "does" | "do" | "would" | "will" | "can"
+        );
+        let pronoun = matches!(word, "it" | "they");
+        if !(verb || pronoun && copula || word.ends_with("ly") || word == "just") {
+            break;
+        }
+        copula |= verb;
+        fronted |= pronoun;
+        from -= 1;
+    }
+    let index = matches.partition_point(|m| m.start < from);
+    let ends_here = matches[index.saturating_sub(3)..index]
+        .iter()
+        .filter(|m| m.end == from && copula && sentence[m.start] == sentence[at]);
+    let subject = ends_here.clone().find(|m| is_state(m)).or_else(|| {
+        ends_here
+            .clone()
+            .find(|m| has(m, |role| role == Role::Thing))
+    })?;
+    // "bright is" is no subject where "the rim is bright" stands before it.
+    let opens = subject.start == 0
+        || !matches!(
+            tokens[subject.start - 1].word.as_str(),
+            "is" | "are" | "gets" | "too" | "looks" | "becomes" | "will" | "be"
+        );
+    // "is not N but H", "is not N, it is H": what follows says what it is.
+    let amended = tokens[end.min(tokens.len())..]
+        .iter()
+        .take(3)
+        .any(|t| matches!(t.word.as_str(), "but" | "it" | "its" | "rather" | "instead"));
+    let mut reach = matches.iter().skip(index).take_while(|m| m.start < end);
+    let same = reach.clone().any(|m| {
+        m.start > at
+            && m.concepts.iter().any(|&id| {
+                subject.concepts.contains(&id) || lexicon.concept(id).name == "halfvector"
+            })
+    });
+    let bare = !reach
+        .any(|m| m.start > at && is_state(m) && !has(m, |role| matches!(role, Role::Entity(_))));
+    let said = is_state(subject);
+    let named = tokens[at + 1..end.min(at + 4).max(at + 1)]
+        .iter()
+        .any(|t| grammar::denies_source(&t.word) || said && grammar::denies_subject(&t.word))
+        || said && end == at + 1;
+    let denied = said && fronted && bare || said && same && !amended || named && !amended;
+    (opens && denied).then_some((subject.start, subject.end))
 }
 
 /// "less concentrated", "not as wide": denies the one word that follows.

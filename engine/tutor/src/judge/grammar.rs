@@ -326,6 +326,53 @@ pub fn asks(word: &str) -> bool {
     )
 }
 
+/// Whether two words open a question: the verb stands before its subject.
+pub fn inverts(verb: &str, subject: &str) -> bool {
+    let helps = matches!(
+        verb,
+        "is" | "are"
+            | "does"
+            | "do"
+            | "can"
+            | "could"
+            | "would"
+            | "should"
+            | "will"
+            | "did"
+            | "shall"
+            | "may"
+    );
+    let known = matches!(
+        subject,
+        "it" | "they" | "i" | "you" | "we" | "there" | "this" | "that" | "d"
+    );
+    let full = !matches!(verb, "is" | "are") && subject == "the";
+    helps && (known || full)
+}
+
+/// Words behind "is not" that deny that something comes of their subject.
+pub fn denies_source(word: &str) -> bool {
+    matches!(word, "where" | "why" | "reason" | "cause" | "what")
+}
+
+/// Words behind "is not" that deny their subject: "1/pi is not the value".
+pub fn denies_subject(word: &str) -> bool {
+    matches!(
+        word,
+        "value"
+            | "case"
+            | "true"
+            | "there"
+            | "right"
+            | "correct"
+            | "so"
+            | "how"
+            | "answer"
+            | "result"
+            | "it"
+    )
+}
+
 /// Expressions after which a learner takes back what he just said.
 pub const CORRECTIONS: &[&[&str]] = &[
     &["wait"],
@@ -370,6 +417,7 @@ pub const DISMISSALS: &[&[&str]] = &[
     &["which", "is", "false"],
     &["this", "is", "wrong"],
     &["is", "not", "true"],
+    &["is", "not", "the", "case"],
     &["is", "a", "myth"],
     &["is", "nonsense"],
     &["classic", "error"],
@@ -377,6 +425,25 @@ pub const DISMISSALS: &[&[&str]] = &[
     &["classic", "mistake"],
     &["is", "a", "misconception"],
     &["are", "the", "classic"],
+];
+
+/// Expressions behind which nothing is claimed.
+pub const WONDERS: &[&[&str]] = &[
+    &["wonder", "if"],
+    &["wonder", "whether"],
+    &["wondering", "if"],
+    &["wondering", "whether"],
+    &["sure", "if"],
+    &["sure", "whether"],
+    &["unsure", "if"],
+    &["unsure", "whether"],
+    &["know", "if"],
+    &["know", "whether"],
+    &["idea", "if"],
+    &["idea", "whether"],
+    &["tell", "if"],
+    &["tell", "whether"],
+    &["say", "whether"],
 ];
 
 /// Expressions that report what somebody else might say.

@@ -42,7 +42,11 @@ impl Atom {
                 self.by_words(reading)
             };
         }
-        for statement in reading.statements.iter().filter(|s| !s.void) {
+        for statement in reading
+            .statements
+            .iter()
+            .filter(|s| !s.void && (ears.strict || !s.guessed))
+        {
             let mut score = self.polarity(lexicon, statement, ears, contrary);
             // "A weak lamp cannot make the rim bright": so something else does.
             let of_artist = statement.about[CAUSE].as_ref().is_some_and(|about| {

@@ -15,7 +15,9 @@ mod matching;
 mod parse;
 mod phrase;
 mod refer;
+mod signs;
 mod spelling;
+mod subject;
 mod symbols;
 mod text;
 mod values;
@@ -30,7 +32,7 @@ use phrase::{Ears, Hit, PERHAPS, Phrase, STATED};
 use text::Token;
 
 /// Changes whenever the same answer may get another verdict; kept in every log.
-pub const JUDGE_VERSION: &str = "1";
+pub const JUDGE_VERSION: &str = "2";
 
 /// What an answer is worth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

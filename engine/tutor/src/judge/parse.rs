@@ -44,6 +44,8 @@ pub struct Statement {
     pub denied: bool,
     /// Whether it is taken back, reported, asked, echoed: said, but not claimed.
     pub void: bool,
+    /// Whether the answer as a whole only asks: it may betray a mistake, but claims nothing.
+    pub guessed: bool,
     /// Whether it follows from a comparison ("brighter than the centre").
     pub compared: bool,
     /// Whether it says what ought to be ("while it should really fall off").
@@ -235,6 +237,47 @@ fn clauses(lexicon: &Lexicon, tokens: &[Token], matches: &[Match]) -> (Vec<usize
     for found in matches {
         inside[found.start + 1..found.end].fill(true);
     }
+    let mut said = vec![false; tokens.len() + 1];
+    for &(_, end) in &states {
+        said[end] = true;
+    }
+    let mut named = vec![0; tokens.len() + 1];
+    for found in matches {
+        let surface = |&id: &Id| {
+            matches!(
+                lexicon.concept(id).role,
+                Role::Entity(PLACE | SURFACE | MATERIAL)
+            )
+        };
+        if found.concepts.iter().any(surface) {
+            named[found.start] = found.end;
+        }
+    }
+    // "it is bright the rim is dark": where no sign parts two clauses, the subject and verb of
+    // the second do.
+    let runs_on = |at: usize| {
+        let noun = at + usize::from(tokens[at].is("the"));
+        let mut verb = named[noun];
+        if tokens
+            .get(verb)
+            .is_some_and(|t| t.is("one") || t.is("ball"))
+        {
+            verb += 1;
+        }
+        // "how dim the picture is": the verb ends it.
+        let goes_on = tokens.get(verb + 1).is_some_and(|t| {
+            matches!(t.kind, Kind::Word | Kind::Value) && !matches!(t.word.as_str(), "and" | "or")
+        });
+        said[at]
+            && verb > 0
+            && goes_on
+            && tokens.get(verb).is_some_and(|t| {
+                matches!(
+                    t.word.as_str(),
+                    "is" | "are" | "has" | "gives" | "gets" | "becomes" | "->" | "=" | ";"
+                )
+            })
+    };
     let mut clause = Vec::with_capacity(tokens.len());
     let mut sentence = Vec::with_capacity(tokens.len());
     let (mut clause_now, mut sentence_now) = (0, 0);
@@ -252,6 +295,7 @@ fn clauses(lexicon: &Lexicon, tokens: &[Token], matches: &[Match]) -> (Vec<usize
         let boundary = !inside[at]
             && (matches!(token.kind, Kind::Comma | Kind::Break)
                 || joins
+                || runs_on(at)
                 || (token.kind != Kind::Value && grammar::begins_clause(&token.word)));
         // "D -> infinity" says something of D; a longer clause before an arrow is a reason.
         let boundary = boundary && (said_before || !token.is("->"));

@@ -5,6 +5,8 @@
 
 use unicode_normalization::UnicodeNormalization;
 
+use super::signs::{Brace, Items, greek, is_combining, is_invisible, operator, superscript};
+
 /// What a token is for those who read on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
@@ -18,7 +20,7 @@ pub enum Kind {
     Comma,
     /// Ends a clause: colon, semicolon, dash.
     Break,
-    /// Ends a sentence; also a line break or bullet.
+    /// Ends a sentence; also an empty line or bullet.
     Stop,
     /// Ends a question.
     Question,
@@ -51,15 +53,6 @@ impl Token {
     }
 }
 
-/// What a closing brace of LaTeX stands for.
-#[derive(Clone, Copy)]
-enum Brace {
-    Numerator,
-    Denominator,
-    Group,
-    Silent,
-}
-
 struct Reader<'a> {
     chars: Vec<(usize, char)>,
     answer: &'a str,
@@ -68,6 +61,8 @@ struct Reader<'a> {
     spaced: bool,
     braces: Vec<Brace>,
     next_brace: Option<Brace>,
+    items: Option<Items>,
+    numbered: bool,
 }
 
 /// Splits an answer into tokens.
@@ -80,77 +75,16 @@ pub fn tokens(answer: &str) -> Vec<Token> {
         spaced: true,
         braces: Vec::new(),
         next_brace: None,
+        items: None,
+        numbered: answer.lines().any(|line| {
+            let line = line.trim_start();
+            line.starts_with("2.") || line.starts_with("2)")
+        }),
     };
     while reader.at < reader.chars.len() {
         reader.step();
     }
     reader.tokens
-}
-
-/// Marks that change how text is laid out and nothing else.
-fn is_invisible(c: char) -> bool {
-    matches!(c, '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{2069}' | '\u{feff}' | '\u{ad}')
-}
-
-fn superscript(c: char) -> Option<char> {
-    Some(match c {
-        '⁰' => '0',
-        '¹' => '1',
-        '²' => '2',
-        '³' => '3',
-        '⁴' => '4',
-        '⁵' => '5',
-        '⁺' => '+',
-        '⁻' => '-',
-        _ => return None,
-    })
-}
-
-fn greek(c: char) -> Option<&'static str> {
-    Some(match c {
-        'α' | 'Α' => "alpha",
-        'π' | 'Π' | 'ϖ' => "pi",
-        'θ' | 'Θ' | 'ϑ' => "theta",
-        'δ' | 'Δ' => "delta",
-        'η' => "eta",
-        'λ' | 'Λ' => "lambda",
-        'σ' => "sigma",
-        '∞' => "infinity",
-        '∥' | '‖' => "parallel",
-        '⊥' => "perpendicular",
-        '½' => "half",
-        '¼' => "quarter",
-        '¾' => "three quarters",
-        _ => return None,
-    })
-}
-
-fn operator(c: char) -> Option<(&'static str, Kind)> {
-    Some(match c {
-        '→' | '⇒' | '⟶' | '⟹' | '↦' | '➔' | '➜' | '↗' | '⇾' => ("->", Kind::Op),
-        '←' | '⇐' | '⟸' => ("<-", Kind::Op),
-        '↑' => ("increases", Kind::Word),
-        '↓' => ("decreases", Kind::Word),
-        '≈' | '≃' | '∼' | '≅' | '~' => ("~", Kind::Op),
-        '=' | '≡' | '≝' => ("=", Kind::Op),
-        '≠' => ("!=", Kind::Op),
-        '<' | '≤' | '≪' | '⩽' => ("<", Kind::Op),
-        '>' | '≥' | '≫' | '⩾' => (">", Kind::Op),
-        '+' | '±' => ("+", Kind::Op),
-        '*' | '·' | '⋅' | '×' | '∙' | '∗' => ("*", Kind::Op),
-        '/' | '÷' | '∕' => ("/", Kind::Op),
-        '^' => ("^", Kind::Op),
-        '(' | '[' | '⟨' | '〈' => ("(", Kind::Op),
-        ')' | ']' | '⟩' | '〉' => (")", Kind::Op),
-        ',' => (",", Kind::Comma),
-        ';' | ':' => (";", Kind::Break),
-        '—' => ("--", Kind::Break),
-        '…' => ("...", Kind::Break),
-        '!' | '。' => (".", Kind::Stop),
-        '?' | '？' => ("?", Kind::Question),
-        '•' | '‣' | '▪' | '◦' | '●' | '\n' => (".", Kind::Stop),
-        _ => return None,
-    })
 }
 
 impl Reader<'_> {
@@ -247,20 +181,49 @@ impl Reader<'_> {
         }
         if let Some((word, kind)) = operator(c) {
             self.at += 1;
+            let separate = self.spaced && self.peek(0).is_some_and(char::is_whitespace);
+            if c == '*' && separate && (self.opens() || self.items == Some(Items::Star)) {
+                self.items = Some(Items::Star);
+                return self.push(".", Kind::Stop, from);
+            }
             // Two strokes open a comment in code; the comment is prose.
             if word == "/" && self.peek(0) == Some('/') {
                 self.at += 1;
                 return self.push(";", Kind::Break, from);
             }
-            self.push(word, kind, from);
-            self.spaced = self.spaced || c == '\n';
-            return;
+            return self.push(word, kind, from);
         }
         if c.is_alphabetic() {
             return self.word();
         }
         self.at += 1;
         self.spaced = self.spaced || c.is_whitespace();
+        if c == '\n' && self.blank_line() {
+            self.items = None;
+            self.push(".", Kind::Stop, from);
+            self.spaced = true;
+        }
+    }
+
+    /// After a line break: does an empty line follow? One break wraps a line, which means
+    /// nothing; two end a paragraph.
+    fn blank_line(&mut self) -> bool {
+        let mut ahead = 0;
+        while let Some(c) = self.peek(ahead).filter(|c| c.is_whitespace()) {
+            ahead += 1;
+            if c == '\n' {
+                self.at += ahead;
+                return true;
+            }
+        }
+        // What was passed over is white space; nobody needs to see it again.
+        self.at += ahead;
+        false
+    }
+
+    /// Whether a sentence begins here.
+    fn opens(&self) -> bool {
+        self.tokens.last().is_none_or(|t| t.kind == Kind::Stop)
     }
 
     fn after_word(&self) -> bool {
@@ -295,13 +258,19 @@ impl Reader<'_> {
         if text.starts_with('.') {
             text.insert(0, '0');
         }
-        // `1.` or `2)` at the start of a line numbers the line.
-        let opens_line = self.tokens.last().is_none_or(|t| t.kind == Kind::Stop);
-        if opens_line
+        // `1.` or `2)` where a sentence or a list begins numbers what follows.
+        let opens_line = self.opens();
+        let number = text.parse::<u32>().ok();
+        let opens_list = self.numbered
+            && number == Some(1)
+            && self.tokens.last().is_some_and(|t| t.kind == Kind::Break);
+        let goes_on = self.spaced && number.is_some_and(|n| self.items == Some(Items::Number(n)));
+        if (opens_line || opens_list || goes_on)
             && matches!(self.peek(0), Some('.' | ')'))
             && text.len() <= 2
             && self.peek(1).is_some_and(char::is_whitespace)
         {
+            self.items = number.map(|n| Items::Number(n + 1));
             self.at += 1;
             return self.push(".", Kind::Stop, from);
         }
@@ -311,7 +280,7 @@ impl Reader<'_> {
     /// After digits: is this point part of the number? Only an operator may follow it.
     fn point_of_a_float(&self) -> bool {
         let mut ahead = 1;
-        while ahead < 3 && self.peek(ahead) == Some(' ') {
+        while ahead < 3 && self.peek(ahead).is_some_and(char::is_whitespace) {
             ahead += 1;
         }
         match self.peek(ahead) {
@@ -353,8 +322,11 @@ impl Reader<'_> {
         let glued = |c: Option<char>| c.is_some_and(|c| !c.is_whitespace());
         let (joined_left, joined_right) = (glued(before), glued(self.peek(1)));
         self.at += 1;
-        let opens_line = self.tokens.last().is_none_or(|t| t.kind == Kind::Stop);
-        if opens_line && !joined_right {
+        let opens_line = self.opens();
+        let opens_list = opens_line || self.tokens.last().is_some_and(|t| t.is(";"));
+        let goes_on = self.items == Some(Items::Dash) && !joined_left;
+        if (opens_list || goes_on) && !joined_right {
+            self.items = Some(Items::Dash);
             return self.push(".", Kind::Stop, from);
         }
         let wordy = |c: Option<char>| c.is_some_and(|c| c.is_alphabetic() && greek(c).is_none());
@@ -383,13 +355,13 @@ impl Reader<'_> {
             })
         };
         let mut right = 0;
-        while self.peek(right).is_some_and(|c| c == ' ') && right < 3 {
+        while self.peek(right).is_some_and(char::is_whitespace) && right < 3 {
             right += 1;
         }
         let left = (from.saturating_sub(2)..from)
             .rev()
             .map(|i| self.chars[i].1)
-            .find(|c| *c != ' ');
+            .find(|c| !c.is_whitespace());
         let is_minus = self.chars[from].1 == '−'
             || arithmetic(self.peek(right))
             || (arithmetic(left) && joined_left && joined_right);
@@ -518,8 +490,4 @@ impl Reader<'_> {
             _ => self.push(name.to_lowercase(), Kind::Word, from),
         }
     }
-}
-
-fn is_combining(c: char) -> bool {
-    unicode_normalization::char::is_combining_mark(c)
 }

@@ -1,0 +1,220 @@
+//! Of whom a word is said: "the spread is narrow" claims no spread, and the half-vector that is
+//! aligned with the normal says nothing of the facets.
+
+use super::grammar;
+use super::lexicon::{Id, Lexicon, PLACE, QUANTITY, Role};
+use super::parse::{About, Held, Reading, Statement};
+use super::spelling::is_preposition;
+use super::text::Kind;
+
+/// Who is in line with something.
+#[derive(Clone, Copy, PartialEq)]
+enum Subject {
+    /// One vector of the question: H, N, their dot product.
+    Vector,
+    /// Facets or their normals.
+    Facets,
+    /// Something else, or nobody named.
+    Other,
+}
+
+impl Reading {
+    /// Hears nouns that name a measure, and alignments, for what they are.
+    pub fn subjects(&mut self, lexicon: &Lexicon) {
+        self.measures(lexicon);
+        self.alignments(lexicon);
+    }
+
+    /// "The spread is small", "a narrow spread": the noun names what is measured, the other
+    /// word says how much of it there is.
+    fn measures(&mut self, lexicon: &Lexicon) {
+        for index in 0..self.statements.len() {
+            let noun = &self.statements[index];
+            let (start, end) = noun.tokens;
+            let names_measure = end == start + 1
+                && matches!(
+                    self.tokens[start].word.as_str(),
+                    "spread" | "scatter" | "scattering" | "dispersion" | "diffusion" | "blur"
+                );
+            let opposite = noun
+                .concepts
+                .first()
+                .and_then(|&id| lexicon.concept(id).antonym);
+            let Some(opposite) = opposite.filter(|_| names_measure) else {
+                continue;
+            };
+            let little = |s: &Statement| {
+                !s.denied
+                    && !s.compared
+                    && s.concepts.iter().any(|&id| {
+                        id == opposite
+                            || matches!(
+                                lexicon.concept(id).name.as_str(),
+                                "small" | "dim" | "fall" | "low" | "zero"
+                            )
+                    })
+            };
+            let before = index
+                .checked_sub(1)
+                .filter(|&i| self.statements[i].tokens.1 == start)
+                .filter(|&i| little(&self.statements[i]));
+            let determined = start > 0
+                && matches!(
+                    self.tokens[start - 1].word.as_str(),
+                    "the" | "its" | "their" | "this" | "a" | "that"
+                );
+            let after = || {
+                let next = (index + 1..self.statements.len().min(index + 8))
+                    .find(|&i| self.is_state(lexicon, i) && self.statements[i].tokens.0 >= end)?;
+                let to = self.statements[next].tokens.0;
+                let gap = &self.tokens[end..to];
+                let linked = gap.iter().any(|t| grammar::is_copula(&t.word)) || gap.is_empty();
+                let near = gap.len() <= 9 && self.sentence[to] == self.sentence[start];
+                let plain = gap.iter().all(|t| {
+                    matches!(t.kind, Kind::Word | Kind::Value) && !grammar::begins_clause(&t.word)
+                });
+                (linked && near && plain && little(&self.statements[next])).then_some(next)
+            };
+            let opens = start == 0 || self.clause[start - 1] != self.clause[start];
+            let Some(other) = before.or_else(|| (determined || opens).then(after).flatten()) else {
+                continue;
+            };
+            if !self.statements[other].concepts.contains(&opposite) {
+                self.statements[other].void = true;
+            }
+            let noun = &mut self.statements[index];
+            noun.concepts = vec![opposite];
+            // The spread is not that of the highlight, unless it says so.
+            let own = |about: &About| about.held == Held::Local && about.tokens.0 >= end;
+            if !noun.about[PLACE].as_ref().is_some_and(own) {
+                noun.about[PLACE] = None;
+            }
+        }
+    }
+
+    /// "H is aligned with the normal" tells how two vectors of the question lie. "All normals
+    /// are aligned with H" tells how the facets lie.
+    fn alignments(&mut self, lexicon: &Lexicon) {
+        let (Some(concentrated), Some(facet)) =
+            (lexicon.id("concentrated"), lexicon.id("isfacetnormal"))
+        else {
+            return;
+        };
+        for index in 0..self.statements.len() {
+            let statement = &self.statements[index];
+            let aligns = self.tokens[statement.tokens.0..statement.tokens.1]
+                .iter()
+                .any(|t| {
+                    matches!(
+                        t.word.as_str(),
+                        "align"
+                            | "aligned"
+                            | "aligns"
+                            | "parallel"
+                            | "coincide"
+                            | "coincides"
+                            | "lined"
+                            | "line"
+                            | "direction"
+                            | "way"
+                            | "orientation"
+                            | "along"
+                            | "towards"
+                            | "equals"
+                            | "point"
+                            | "points"
+                    )
+                });
+            let meant = |id: Id| statement.concepts.contains(&id);
+            if !aligns || !(meant(concentrated) || meant(facet)) {
+                continue;
+            }
+            match self.subject_of(lexicon, index) {
+                (Subject::Vector, _) if meant(concentrated) => {
+                    self.statements[index].void = true;
+                }
+                (Subject::Facets, true) if !meant(concentrated) => {
+                    self.statements[index].concepts.push(concentrated);
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// The last one named before a statement that no preposition governs, in its clause or,
+    /// where that opens with "which" or "that", the one before; and whether all of them.
+    fn subject_of(&self, lexicon: &Lexicon, index: usize) -> (Subject, bool) {
+        let (at, clause) = (
+            self.statements[index].tokens.0,
+            self.statements[index].clause,
+        );
+        let first = self.clause.partition_point(|&c| c < clause);
+        let relative = matches!(self.tokens[first].word.as_str(), "which" | "that" | ",")
+            && self.tokens[first..at]
+                .iter()
+                .all(|t| !matches!(t.word.as_str(), "facets" | "normals"));
+        let all = self.tokens[first..at]
+            .iter()
+            .any(|t| matches!(t.word.as_str(), "all" | "every" | "each"));
+        let mut facets_named = false;
+        let mut vector = false;
+        for statement in self.statements[..index].iter().rev().take(12) {
+            let here = statement.clause == clause
+                || relative
+                    && statement.clause + 2 >= clause
+                    && statement.sentence == self.sentence[at];
+            if !here {
+                break;
+            }
+            let start = statement.tokens.0;
+            let governed = (start.saturating_sub(2)..start).any(|i| {
+                is_preposition(&self.tokens[i].word)
+                    && !self.tokens[i].is("for")
+                    && self.clause[i] == self.clause[start]
+            });
+            let is = |name: &str| {
+                statement
+                    .concepts
+                    .iter()
+                    .any(|&id| lexicon.concept(id).name == name)
+            };
+            let lone_normal = statement.tokens.1 == start + 1
+                && self.tokens[start].is("normal")
+                && !(start > 0
+                    && matches!(
+                        self.tokens[start - 1].word.as_str(),
+                        "all" | "every" | "each"
+                    ));
+            facets_named |= is("facets") || (is("normals") && !lone_normal) || is("isfacetnormal");
+            let quantity = statement
+                .concepts
+                .iter()
+                .any(|&id| lexicon.concept(id).role == Role::Entity(QUANTITY));
+            if governed {
+                continue;
+            }
+            let direction = statement.tokens.1 == start + 1
+                && matches!(
+                    self.tokens[start].word.as_str(),
+                    "v" | "l" | "view" | "viewer"
+                );
+            if direction || is("halfvector") || is("surfacenormal") || is("ndoth") || lone_normal {
+                vector = true;
+            } else if quantity && !vector {
+                return (Subject::Other, all);
+            }
+        }
+        match (facets_named, vector) {
+            (true, _) => (Subject::Facets, all),
+            (false, true) => (Subject::Vector, all),
+            _ => (Subject::Other, all),
+        }
+    }
+
+    fn is_state(&self, lexicon: &Lexicon, index: usize) -> bool {
+        self.statements[index]
+            .concepts
+            .iter()
+            .any(|&id| lexicon.concept(id).role == Role::State)
+    }
+}
