@@ -483,6 +483,17 @@ fn bad_usage_says_what_to_do() {
         &["mark", "smith-g2/v", "--answer", "1", "--earlier", "alpha"],
         &["NAME=TEXT"],
     );
+    check_refused(
+        &[
+            "mark",
+            "smith-g2/v",
+            "--answer",
+            "1",
+            "--earlier",
+            "alpha=nonsense",
+        ],
+        &["--earlier alpha=nonsense"],
+    );
     check_refused(&["judge", "smith-g2/explain-9"], &["smith-g2/explain"]);
     check_refused(
         &["check", "no/such/file.toml"],

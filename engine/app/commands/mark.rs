@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use tutor::exercise::mark;
 use tutor::exercise::report::MarkReport;
+use tutor::exercise::{Marking, mark};
 
 use crate::cli::{Folders, Mark};
 use crate::exit::{Done, Failure};
@@ -34,8 +34,20 @@ pub fn run(folders: &Folders, args: &Mark) -> Result<Done, Failure> {
                 "--earlier {given}: write NAME=TEXT, such as alpha=0.16"
             )));
         };
-        known(name.trim())?;
-        earlier.insert(name.trim().to_owned(), answer.trim().to_owned());
+        let (name, answer) = (name.trim(), answer.trim());
+        known(name)?;
+        let alone = mark(
+            lesson,
+            exercise,
+            &drawn,
+            Some(name),
+            answer,
+            &BTreeMap::new(),
+        );
+        if let Marking::Invalid { says } = alone {
+            return Err(Failure::unusable(format!("--earlier {given}: {says}")));
+        }
+        earlier.insert(name.to_owned(), answer.to_owned());
     }
     let marking = mark(
         lesson,
