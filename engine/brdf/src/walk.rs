@@ -8,7 +8,9 @@
 //! cancels. At each hit the facet's normal is drawn from those visible against the ray.
 //!
 //! Heitz, Hanika, d'Eon and Dachsbacher 2016; Hammon 2017, appendix, whose slides draw the
-//! normal from D alone: that is not the distribution of what a ray meets.
+//! normal from D alone: that is not the distribution of what a ray meets. `tests/hammon.rs`
+//! holds what follows: with visible normals light takes the same way back and single
+//! scattering is ∫ D G₂, with those of the slides neither.
 
 use crate::batch::{Isa, Level, dispatch, ln_unit, sin_cos_turn};
 use crate::ggx::{Ggx, Sampler};
@@ -46,8 +48,8 @@ pub struct Exit<R> {
     pub weight: R,
     /// Hits on the way, at least 1.
     pub bounces: u32,
-    /// Whether all of them were mirrors.
-    pub specular: bool,
+    /// How many of them were diffuse; 0 where all were mirrors.
+    pub diffuse: u32,
 }
 
 /// Walks longer than this are given up; for α ≤ 1 none is seen.
@@ -65,7 +67,7 @@ pub fn walk<R: Real>(
     let (zero, one) = (lit::<R>(0.0), lit::<R>(1.0));
     // The direction the ray comes from, seen from its next hit.
     let mut from = v.into();
-    let (mut depth, mut weight, mut specular) = (zero, one, true);
+    let (mut depth, mut weight, mut diffuse) = (zero, one, 0);
     for bounces in 0..MOST_BOUNCES {
         // The direction of travel is −from.
         let z = -from[2];
@@ -80,7 +82,7 @@ pub fn walk<R: Real>(
                     l: scale(from, -one),
                     weight,
                     bounces,
-                    specular,
+                    diffuse,
                 });
             }
         } else {
@@ -104,7 +106,7 @@ pub fn walk<R: Real>(
         let l = if mirrored {
             reflect(from, m)
         } else {
-            specular = false;
+            diffuse += 1;
             loop {
                 let l = cosine_around(m, [next(), next()]);
                 // 20 of 21 are kept.
@@ -117,6 +119,66 @@ pub fn walk<R: Real>(
         from = scale(l, -one);
     }
     None
+}
+
+/// Where the light of one view goes: its shares by how often it was let into the facets.
+///
+/// The way of a ray does not depend on the albedo, so that one simulation answers for all of
+/// them: light that was inside k times carries albedoᵏ.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Split {
+    /// Walks that this is the mean of.
+    pub walks: u32,
+    /// Share of the energy that was only mirrored.
+    pub specular: f64,
+    /// Share that was inside once, twice, and so on before the albedo is taken off; the last
+    /// entry holds all that were inside more often.
+    pub diffuse: [f64; 16],
+}
+
+impl Split {
+    /// Follows `walks` rays from a view into facets under a coat with the reflectance `f0` at
+    /// normal incidence; `next` gives numbers in (0, 1).
+    pub fn new<R: Real>(
+        ggx: Ggx<R>,
+        f0: R,
+        v: impl Into<Vector<R>>,
+        walks: u32,
+        mut next: impl FnMut() -> R,
+    ) -> Split {
+        let v = v.into();
+        let albedo = lit(1.0);
+        let mut counts = [0u32; 17];
+        for _ in 0..walks {
+            if let Some(exit) = walk(ggx, Facets::Coated { f0, albedo }, v, &mut next) {
+                counts[(exit.diffuse as usize).min(16)] += 1;
+            }
+        }
+        let share = |count: u32| f64::from(count) / f64::from(walks.max(1));
+        Split {
+            walks,
+            specular: share(counts[0]),
+            diffuse: std::array::from_fn(|k| share(counts[k + 1])),
+        }
+    }
+
+    /// Share of the energy that leaves after one diffuse bounce, over the albedo: what Hammon
+    /// calls *single*, with the mirrors before and after it.
+    pub fn single(&self) -> f64 {
+        self.diffuse[0]
+    }
+
+    /// Share that leaves after two diffuse bounces or more, over the square of the albedo: what
+    /// Hammon calls *multi*, which does depend on the albedo.
+    pub fn multi(&self, albedo: f64) -> f64 {
+        let more = self.diffuse[1..].iter().rev();
+        more.fold(0.0, |rest, share| share + albedo * rest)
+    }
+
+    /// Share of the energy that leaves without being only mirrored.
+    pub fn diffuse(&self, albedo: f64) -> f64 {
+        albedo * (self.single() + albedo * self.multi(albedo))
+    }
 }
 
 /// A normal visible from `v`, which may lie below the horizon (Dupuy and Benyoub 2023).

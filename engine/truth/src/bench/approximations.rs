@@ -129,7 +129,9 @@ fn diffuse(effort: Effort) -> Vec<Row> {
         // The ends of the interval are no random numbers here.
         let mut next = || numbers.unit().max(1e-12);
         let walks = (0..count).filter_map(|_| walk(Ggx::new(alpha), facets, view(mu), &mut next));
-        let diffuse = walks.filter(|exit| !exit.specular).map(|exit| exit.weight);
+        let diffuse = walks
+            .filter(|exit| exit.diffuse > 0)
+            .map(|exit| exit.weight);
         diffuse.sum::<f64>() / f64::from(count)
     };
     let truth: Vec<f64> = points.iter().map(|point| leaves(point, WALKS, 1)).collect();
