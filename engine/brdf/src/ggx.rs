@@ -84,9 +84,7 @@ impl<R: Real> Ggx<R> {
     pub fn d(&self, h: impl Into<Vector<R>>) -> R {
         let h = h.into();
         let value = self.d_squares(h, h.map(|x| x * x));
-        let ggx = *self;
-        rescued(value, [h], move || {
-            let h = tamed(h);
+        rescued(value, (h, h), *self, |ggx, h, _| {
             ggx.tamed().d_squares(h, h.map(|x| x * x))
         })
     }
@@ -97,10 +95,7 @@ impl<R: Real> Ggx<R> {
     pub fn d_between(&self, l: impl Into<Vector<R>>, v: impl Into<Vector<R>>) -> R {
         let (l, v) = (l.into(), v.into());
         let value = self.d_of_sum(l, v);
-        let ggx = *self;
-        rescued(value, [l, v], move || {
-            ggx.tamed().d_of_sum(tamed(l), tamed(v))
-        })
+        rescued(value, (l, v), *self, |ggx, l, v| ggx.tamed().d_of_sum(l, v))
     }
 
     #[inline(always)]
@@ -135,8 +130,7 @@ impl<R: Real> Ggx<R> {
     pub fn lambda(&self, v: impl Into<Vector<R>>) -> R {
         let v = v.into();
         let value = self.lambda_of(v);
-        let ggx = *self;
-        rescued(value, [v], move || ggx.tamed().lambda_of(tamed(v)))
+        rescued(value, (v, v), *self, |ggx, v, _| ggx.tamed().lambda_of(v))
     }
 
     #[inline(always)]
@@ -165,9 +159,8 @@ impl<R: Real> Ggx<R> {
     pub fn visibility(&self, l: impl Into<Vector<R>>, v: impl Into<Vector<R>>) -> R {
         let (l, v) = (l.into(), v.into());
         let value = self.visibility_of(l, v);
-        let ggx = *self;
-        rescued(value, [l, v], move || {
-            ggx.tamed().visibility_of(tamed(l), tamed(v))
+        rescued(value, (l, v), *self, |ggx, l, v| {
+            ggx.tamed().visibility_of(l, v)
         })
     }
 
@@ -184,9 +177,8 @@ impl<R: Real> Ggx<R> {
     pub fn eval(&self, l: impl Into<Vector<R>>, v: impl Into<Vector<R>>) -> R {
         let (l, v) = (l.into(), v.into());
         let value = self.d_of_sum(l, v) * self.visibility_of(l, v);
-        let ggx = *self;
-        rescued(value, [l, v], move || {
-            let (ggx, l, v) = (ggx.tamed(), tamed(l), tamed(v));
+        rescued(value, (l, v), *self, |ggx, l, v| {
+            let ggx = ggx.tamed();
             ggx.d_of_sum(l, v) * ggx.visibility_of(l, v)
         })
     }
@@ -200,9 +192,8 @@ impl<R: Real> Ggx<R> {
             return l[2].at_least(lit(0.0)) * lit(FRAC_1_PI);
         }
         let value = self.d_of_sum(l, v) * self.visible_share(v, sampler);
-        let ggx = *self;
-        rescued(value, [l, v], move || {
-            let (ggx, l, v) = (ggx.tamed(), tamed(l), tamed(v));
+        rescued(value, (l, v), (*self, sampler), |(ggx, sampler), l, v| {
+            let ggx = ggx.tamed();
             ggx.d_of_sum(l, v) * ggx.visible_share(v, sampler)
         })
     }
@@ -333,14 +324,16 @@ pub fn v_dot_h_and_rest<R: Real>(l: impl Into<Vector<R>>, v: impl Into<Vector<R>
     if c <= lit(2.0) {
         (c, rest)
     } else {
-        half_angle_of_directions(l, v)
+        half_angle_of_directions(l[0], l[1], l[2], v[0], v[1], v[2])
     }
 }
 
-/// The same for vectors far from length 1, of which only the directions count.
+/// The same for vectors far from length 1, of which only the directions count. It takes numbers
+/// for the reason that [`rescued`] does.
 #[cold]
 #[inline(never)]
-fn half_angle_of_directions<R: Real>(l: Vector<R>, v: Vector<R>) -> (R, R) {
+fn half_angle_of_directions<R: Real>(l_x: R, l_y: R, l_z: R, v_x: R, v_y: R, v_z: R) -> (R, R) {
+    let (l, v) = ([l_x, l_y, l_z], [v_x, v_y, v_z]);
     match l.into_iter().chain(v).find(|x| x.is_nan()) {
         Some(nan) => (nan, nan),
         None => half_angle(tamed(l), tamed(v)),
@@ -460,7 +453,12 @@ impl<R: Real> Specular<R> {
         let [r, g, b] = self.fresnel.eval(l, v).map(|f| f * value);
         if (r + g + b).is_nan() {
             // ∞ · 0 at the peak or on the horizon of a mirror: nothing leaves there.
-            return [r, g, b].map(|value| rescued(value, [l, v], || lit(0.0)));
+            let zero = |(), _, _| lit(0.0);
+            return [
+                rescued(r, (l, v), (), zero),
+                rescued(g, (l, v), (), zero),
+                rescued(b, (l, v), (), zero),
+            ];
         }
         [r, g, b]
     }

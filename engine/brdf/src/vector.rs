@@ -56,30 +56,42 @@ pub(crate) fn tamed<R: Real>(a: Vector<R>) -> Vector<R> {
 
 /// `value`, or what `again` gives where that is a NaN that no vector contains: for lengths and
 /// widths whose squares overflow or vanish. 0 if that is none either.
+///
+/// `again` gets the directions of `a` and `b`, and `with` as it is.
 #[inline(always)]
-pub(crate) fn rescued<R: Real, const N: usize>(
+pub(crate) fn rescued<R: Real, W: Copy>(
     value: R,
-    vectors: [Vector<R>; N],
-    again: impl FnOnce() -> R,
+    (a, b): (Vector<R>, Vector<R>),
+    with: W,
+    again: impl FnOnce(W, Vector<R>, Vector<R>) -> R,
 ) -> R {
     if value.is_nan() {
-        rescue(value, vectors, again)
+        rescue(value, a[0], a[1], a[2], b[0], b[1], b[2], with, again)
     } else {
         value
     }
 }
 
-/// Out of the way, so that what usually happens stays small.
+/// Out of the way, so that what usually happens stays small. It takes numbers: vectors would be
+/// passed in memory, and be kept there all the way before, for the case that this is called.
 #[cold]
 #[inline(never)]
-fn rescue<R: Real, const N: usize>(
+#[allow(clippy::too_many_arguments)]
+fn rescue<R: Real, W>(
     nan: R,
-    vectors: [Vector<R>; N],
-    again: impl FnOnce() -> R,
+    a_x: R,
+    a_y: R,
+    a_z: R,
+    b_x: R,
+    b_y: R,
+    b_z: R,
+    with: W,
+    again: impl FnOnce(W, Vector<R>, Vector<R>) -> R,
 ) -> R {
-    if vectors.iter().any(|v| v.iter().any(|x| x.is_nan())) {
+    let (a, b) = ([a_x, a_y, a_z], [b_x, b_y, b_z]);
+    if a.into_iter().chain(b).any(R::is_nan) {
         return nan;
     }
-    let value = again();
+    let value = again(with, tamed(a), tamed(b));
     if value.is_nan() { lit(0.0) } else { value }
 }
