@@ -199,6 +199,15 @@ impl Judge {
     /// Judges one answer, any text of any length.
     pub fn judge(&self, answer: &str) -> Judgement {
         let reading = self.read(answer);
+        let findings = self
+            .criteria
+            .iter()
+            .map(|criterion| criterion.find(&reading, self.understood));
+        self.decide(answer, findings)
+    }
+
+    /// What follows from what was found on each criterion, in their order.
+    fn decide(&self, answer: &str, findings: impl Iterator<Item = Finding>) -> Judgement {
         let mut judgement = Judgement {
             verdict: Verdict::Unsure,
             met: Vec::new(),
@@ -206,11 +215,11 @@ impl Judge {
             unsure: Vec::new(),
             why: Vec::new(),
         };
-        for criterion in &self.criteria {
+        for (criterion, finding) in self.criteria.iter().zip(findings) {
             if criterion.unless.iter().any(|id| judgement.met.contains(id)) {
                 continue;
             }
-            let (list, hit) = match criterion.find(&reading, self.understood) {
+            let (list, hit) = match finding {
                 Finding::Stated(hit) if criterion.is_misconception => {
                     (&mut judgement.misconceptions, hit)
                 }
@@ -307,10 +316,7 @@ impl Judge {
     fn phrase_heard(&self, id: &str, answer: &str) -> Option<&str> {
         let reading = self.read(answer);
         let criterion = self.criteria.iter().find(|c| c.id == id)?;
-        let ears = Ears {
-            strict: criterion.is_misconception,
-            understood: self.understood,
-        };
+        let ears = criterion.ears(self.understood);
         let score = |phrase: &&Phrase| phrase.said(lexicon(), &reading, ears).score;
         let best = criterion
             .phrases
@@ -359,10 +365,7 @@ impl Judge {
             out.push('\n');
         }
         for criterion in &self.criteria {
-            let ears = Ears {
-                strict: criterion.is_misconception,
-                understood: self.understood,
-            };
+            let ears = criterion.ears(self.understood);
             for phrase in &criterion.phrases {
                 let hit = phrase.said(lexicon, &reading, ears);
                 if hit.score > 0.0 {
@@ -387,19 +390,10 @@ impl Judge {
 
 impl Criterion {
     fn find(&self, reading: &Reading, understood: u128) -> Finding {
-        let lexicon = lexicon();
-        let ears = Ears {
-            strict: self.is_misconception,
-            understood,
-        };
+        let ears = self.ears(understood);
         let mut best = Hit::default();
         for phrase in &self.phrases {
-            let mut hit = phrase.said(lexicon, reading, ears);
-            if hit.score > best.score && !self.is_misconception && phrase.gainsaid(lexicon, reading)
-            {
-                // Said and gainsaid: which of the two stands is not for a machine to guess.
-                hit.score = hit.score.min(0.6);
-            }
+            let hit = self.hear(phrase, reading, ears);
             if hit.score > best.score {
                 best = hit;
             }
@@ -407,14 +401,36 @@ impl Criterion {
         let against = self
             .against
             .iter()
-            .map(|p| p.said(lexicon, reading, ears).score)
+            .map(|p| p.said(lexicon(), reading, ears).score)
             .fold(0.0, f64::max);
+        self.settle(best, against, reading)
+    }
+
+    fn ears(&self, understood: u128) -> Ears {
+        Ears {
+            strict: self.is_misconception,
+            understood,
+        }
+    }
+
+    /// How well a phrase of this criterion is said.
+    fn hear(&self, phrase: &Phrase, reading: &Reading, ears: Ears) -> Hit {
+        let mut hit = phrase.said(lexicon(), reading, ears);
+        if hit.score > 0.6 && !self.is_misconception && phrase.gainsaid(lexicon(), reading) {
+            // Said and gainsaid: which of the two stands is not for a machine to guess.
+            hit.score = 0.6;
+        }
+        hit
+    }
+
+    /// What follows from the best of its phrases and the best of those against it.
+    fn settle(&self, best: Hit, against: f64, reading: &Reading) -> Finding {
         match best.score {
             _ if against >= STATED => Finding::Absent,
             score if score >= STATED => Finding::Stated(best),
             score if score >= PERHAPS => Finding::Perhaps(best),
             // It speaks of the right thing in words that are not known: no ground to say no.
-            _ if self.required => match reading.unread(lexicon, &self.topics) {
+            _ if self.required => match reading.unread(lexicon(), &self.topics) {
                 Some(range) => Finding::Perhaps(Hit {
                     score: PERHAPS,
                     range,
