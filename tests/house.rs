@@ -71,6 +71,7 @@ fn mathematics_formulas_and_teaching_touch_nothing_outside() {
     check_touches_nothing("engine/brdf");
     check_touches_nothing("engine/formula");
     check_touches_nothing("engine/tutor");
+    check_touches_nothing("engine/shader");
 }
 
 /// The crates of this house that a crate needs to run.
@@ -78,7 +79,9 @@ fn needs(room: &str) -> Vec<String> {
     let text =
         fs::read_to_string(common::root().join(room).join("Cargo.toml")).expect("a manifest");
     let manifest: toml::Table = text.parse().expect("TOML");
-    let ours = ["brdf", "formula", "tutor", "renders", "truth", "lobe"];
+    let ours = [
+        "brdf", "formula", "tutor", "renders", "shader", "truth", "lobe",
+    ];
     let dependencies = manifest.get("dependencies").and_then(toml::Value::as_table);
     let names = dependencies.into_iter().flat_map(toml::Table::keys);
     names
@@ -100,4 +103,5 @@ fn arrows_point_down() {
     check_needs_only("engine/formula", &["brdf"]);
     check_needs_only("engine/tutor", &["formula", "brdf"]);
     check_needs_only("renders", &["formula", "brdf"]);
+    check_needs_only("engine/shader", &[]);
 }
