@@ -32,10 +32,8 @@ pub fn fingerprint<'a>(lesson: &'a Lesson, id: &'a str) -> Option<Fingerprint<'a
         right: &entry.right.expr,
         wrong: &entry.wrong.expr,
         scene: Scene {
-            roughness,
-            f0,
-            light_deg,
             others,
+            ..Scene::new(roughness, f0, light_deg)
         },
     })
 }

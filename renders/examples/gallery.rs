@@ -79,7 +79,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             library: &library,
             right: &right,
             wrong: &wrong,
-            scene: Scene { roughness, f0, light_deg, others: Default::default() },
+            scene: Scene::new(roughness, f0, light_deg),
         };
         let options = Options {
             size,

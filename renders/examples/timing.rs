@@ -46,12 +46,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         library: &library,
         right: &right,
         wrong: &wrong,
-        scene: Scene {
-            roughness: 0.7,
-            f0: 0.95,
-            light_deg: 60.0,
-            others: Default::default(),
-        },
+        scene: Scene::new(0.7, 0.95, 60.0),
     };
     let options = Options {
         size,

@@ -1,7 +1,8 @@
 //! What a picture's total does as it gets larger. A bug that is not integrable, such as dividing
 //! twice under a headlight, never settles; that is a property of the bug, not of the renderer.
 
-use crate::{Backend, Error, Fingerprint, Options, RADIUS_SHARE, raw};
+use crate::shade::luminance;
+use crate::{Backend, Error, Fingerprint, Options, raw};
 
 /// The light that reaches the eye from the whole disc, as the mean radiance over it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,8 +27,13 @@ pub fn convergence(fingerprint: &Fingerprint<'_>, sizes: &[u32]) -> Result<Vec<T
             ..Options::default()
         };
         let raw = raw(fingerprint, &options)?;
-        let disc = std::f64::consts::PI * (RADIUS_SHARE * f64::from(size)).powi(2);
-        let mean = |values: &[f64]| values.iter().sum::<f64>() / disc;
+        let radius = fingerprint.scene.radius * f64::from(size) / 2.0;
+        let disc = std::f64::consts::PI * radius * radius;
+        let pixels = |values: &[f64]| -> f64 {
+            let pixels = values.chunks_exact(raw.channels as usize);
+            pixels.map(luminance).sum()
+        };
+        let mean = |values: &[f64]| pixels(values) / disc;
         Ok(Total {
             size,
             right: mean(&raw.right),

@@ -3,7 +3,7 @@
 use crate::Fingerprint;
 use crate::error::Error;
 use crate::plan::{Plan, program};
-use crate::sample::Samples;
+use crate::sample::{Input, Samples};
 use crate::shade::Values;
 use formula::{Column, Program, Scratch};
 use std::cell::RefCell;
@@ -63,10 +63,12 @@ impl Cpu {
         for start in (0..count).step_by(BLOCK) {
             let range = start..(start + BLOCK).min(count);
             let columns: Vec<Column<'_, f64>> = samples
-                .columns(range.start, range.end)
+                .inputs(&range)
                 .into_iter()
-                // A column that is not there is one that no formula asks for.
-                .map(|column| column.map_or(Column::Uniform(0.0), Column::Varying))
+                .map(|input| match input {
+                    Input::Uniform(value) => Column::Uniform(value),
+                    Input::Varying(values) => Column::Varying(values),
+                })
                 .chain(self.constants.iter().map(|&value| Column::Uniform(value)))
                 .collect();
             SCRATCH.with_borrow_mut(|scratch| {

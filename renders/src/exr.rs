@@ -11,11 +11,35 @@ type Channel<'a> = (&'a str, &'a [f64]);
 impl Raw {
     /// Both panels as the layers `buggy` and `correct` of an OpenEXR file.
     pub fn exr(&self) -> Vec<u8> {
+        let channels = self.channels.max(1) as usize;
+        let pick = |values: &[f64], channel: usize| -> Vec<f64> {
+            values
+                .iter()
+                .skip(channel)
+                .step_by(channels)
+                .copied()
+                .collect()
+        };
         // Channels stand in alphabetical order: the format asks for it.
-        write(
-            self.size as usize,
-            &[("buggy.Y", &self.wrong), ("correct.Y", &self.right)],
-        )
+        let names: &[(&str, usize)] = match channels {
+            3 => &[("B", 2), ("G", 1), ("R", 0)],
+            _ => &[("Y", 0)],
+        };
+        let layers = [("buggy", &self.wrong), ("correct", &self.right)];
+        let planes: Vec<(String, Vec<f64>)> = layers
+            .iter()
+            .flat_map(|(layer, values)| {
+                let plane = |(name, channel): &(&str, usize)| {
+                    (format!("{layer}.{name}"), pick(values, *channel))
+                };
+                names.iter().map(plane).collect::<Vec<_>>()
+            })
+            .collect();
+        let list: Vec<Channel<'_>> = planes
+            .iter()
+            .map(|(name, values)| (name.as_str(), values.as_slice()))
+            .collect();
+        write(self.size as usize, &list)
     }
 }
 
@@ -81,6 +105,7 @@ mod tests {
     fn the_last_row_is_where_its_offset_says() {
         let raw = Raw {
             size: 3,
+            channels: 1,
             right: (0..9).map(f64::from).collect(),
             wrong: vec![0.5; 9],
         };

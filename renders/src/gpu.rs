@@ -3,8 +3,8 @@
 
 use crate::Fingerprint;
 use crate::error::Error;
-use crate::plan::{Plan, folded};
-use crate::sample::Samples;
+use crate::plan::{Plan, folded, of_main_light};
+use crate::sample::{Input, Samples};
 use crate::scene::VARYING;
 use crate::shade::Values;
 use formula::{Expr, Wgsl};
@@ -20,6 +20,8 @@ pub(crate) struct Gpu {
     queue: wgpu::Queue,
     pipeline: wgpu::ComputePipeline,
     second_is_ratio: bool,
+    /// The places in [`VARYING`] of what a point is told, in the shader's order.
+    columns: Vec<usize>,
     pub adapter: String,
 }
 
@@ -115,41 +117,53 @@ impl Gpu {
             queue,
             pipeline,
             second_is_ratio: plan.ratio.is_some(),
+            columns: columns(plan),
             adapter: describe(&info),
         })
     }
 
-    pub fn evaluate(&self, samples: &Samples) -> Result<Values, Error> {
-        let (mut right, mut second) = (
-            Vec::with_capacity(samples.len()),
-            Vec::with_capacity(samples.len()),
-        );
-        for start in (0..samples.len()).step_by(CHUNK) {
-            let end = (start + CHUNK).min(samples.len());
-            for pair in self.dispatch(samples, start, end)? {
-                right.push(f64::from(pair[0]));
-                second.push(f64::from(pair[1]));
-            }
+    /// Both formulas at the samples under each of some lights.
+    pub fn evaluate(&self, samples: &[Samples]) -> Result<Vec<Values>, Error> {
+        let points = self.points(samples);
+        let stride = self.columns.len();
+        let mut results = Vec::with_capacity(points.len() / stride);
+        for chunk in points.chunks(CHUNK * stride) {
+            results.extend(self.dispatch(chunk)?);
         }
-        Ok(if self.second_is_ratio {
-            Values::of_ratio(right, second)
-        } else {
-            Values::of_both(right, second)
-        })
+        let mut rest = results.as_slice();
+        let values = samples.iter().map(|samples| {
+            let (own, others) = rest.split_at(samples.len());
+            rest = others;
+            let right = own.iter().map(|pair| f64::from(pair[0])).collect();
+            let second = own.iter().map(|pair| f64::from(pair[1])).collect();
+            match self.second_is_ratio {
+                true => Values::of_ratio(right, second),
+                false => Values::of_both(right, second),
+            }
+        });
+        Ok(values.collect())
     }
 
-    fn dispatch(
-        &self,
-        samples: &Samples,
-        start: usize,
-        end: usize,
-    ) -> Result<Vec<[f32; 2]>, Error> {
-        let columns = samples.columns(start, end);
-        let points: Vec<[f32; 4]> = (0..end - start)
-            .map(|i| columns.map(|column| column.map_or(0.0, |values| values[i] as f32)))
-            .collect();
-        let bytes: &[u8] = bytemuck::cast_slice(&points);
-        let result_size = (points.len() * size_of::<[f32; 2]>()) as u64;
+    /// The columns that the shader reads, point by point.
+    fn points(&self, samples: &[Samples]) -> Vec<f32> {
+        let count: usize = samples.iter().map(Samples::len).sum();
+        let mut points = Vec::with_capacity(count * self.columns.len());
+        for samples in samples {
+            let inputs = samples.inputs(&(0..samples.len()));
+            for index in 0..samples.len() {
+                points.extend(self.columns.iter().map(|&column| match inputs[column] {
+                    Input::Uniform(value) => value as f32,
+                    Input::Varying(values) => values[index] as f32,
+                }));
+            }
+        }
+        points
+    }
+
+    fn dispatch(&self, points: &[f32]) -> Result<Vec<[f32; 2]>, Error> {
+        let count = points.len() / self.columns.len();
+        let bytes: &[u8] = bytemuck::cast_slice(points);
+        let result_size = (count * size_of::<[f32; 2]>()) as u64;
         let readback = guarded(&self.device, |device| {
             let buffer = |size: u64, usage: wgpu::BufferUsages| {
                 device.create_buffer(&wgpu::BufferDescriptor {
@@ -191,7 +205,7 @@ impl Gpu {
                 let mut pass = encoder.begin_compute_pass(&Default::default());
                 pass.set_pipeline(&self.pipeline);
                 pass.set_bind_group(0, &bindings, &[]);
-                pass.dispatch_workgroups(points.len().div_ceil(WORKGROUP) as u32, 1, 1);
+                pass.dispatch_workgroups(count.div_ceil(WORKGROUP) as u32, 1, 1);
             }
             encoder.copy_buffer_to_buffer(&output, 0, &readback, 0, result_size);
             self.queue.submit([encoder.finish()]);
@@ -244,6 +258,13 @@ fn first_line(text: &str) -> String {
         .join(": ")
 }
 
+/// The places in [`VARYING`] of what a shader is told of each point: at least one, so that the
+/// points can be counted.
+fn columns(plan: &Plan) -> Vec<usize> {
+    let uploaded = (0..VARYING.len()).filter(|&index| index == 0 || plan.uploaded[index]);
+    uploaded.collect()
+}
+
 /// The whole shader: the formulas' functions, their constants, and one entry point.
 fn shader(fingerprint: &Fingerprint<'_>, plan: &Plan) -> Result<String, Error> {
     let constants = fingerprint.scene.constants();
@@ -267,16 +288,32 @@ fn shader(fingerprint: &Fingerprint<'_>, plan: &Plan) -> Result<String, Error> {
         &fold(plan.ratio.as_ref().unwrap_or(fingerprint.wrong)),
     )?;
     let mut source = Wgsl::functions_of(&[&right, &second]);
-    source.push_str(
-        "@group(0) @binding(0) var<storage, read> points: array<vec4<f32>>;\n\
+    let columns = columns(plan);
+    let _ = write!(
+        source,
+        "@group(0) @binding(0) var<storage, read> points: array<f32>;\n\
          @group(0) @binding(1) var<storage, read_write> values: array<vec2<f32>>;\n\n\
-         @compute @workgroup_size(64)\n\
-         fn shade(@builtin(global_invocation_id) id: vec3<u32>) {\n\
-         \x20   if (id.x >= arrayLength(&points)) { return; }\n\
-         \x20   let point = points[id.x];\n",
+         @compute @workgroup_size({WORKGROUP})\n\
+         fn shade(@builtin(global_invocation_id) id: vec3<u32>) {{\n\
+         \x20   if (id.x >= arrayLength(&values)) {{ return; }}\n\
+         \x20   let first = id.x * {}u;\n",
+        columns.len()
     );
-    for (index, name) in VARYING.iter().enumerate() {
-        let _ = writeln!(source, "    let {name} = point[{index}];");
+    for (place, &index) in columns.iter().enumerate() {
+        let _ = writeln!(
+            source,
+            "    let {} = points[first + {place}u];",
+            VARYING[index]
+        );
+    }
+    for (index, value) in of_main_light(fingerprint) {
+        if !columns.contains(&index) {
+            let _ = writeln!(
+                source,
+                "    let {} = f32({:?});",
+                VARYING[index], value as f32
+            );
+        }
     }
     for (name, value) in &constants {
         let _ = writeln!(source, "    let {name} = f32({:?});", *value as f32);
@@ -312,10 +349,8 @@ mod tests {
             right: &right,
             wrong: &wrong,
             scene: Scene {
-                roughness: 0.4,
-                f0: 0.04,
-                light_deg: 60.0,
                 others: others.into(),
+                ..Scene::new(0.4, 0.04, 60.0)
             },
         };
         let source =

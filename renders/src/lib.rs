@@ -2,7 +2,7 @@
 //! the plots of a lesson's tables.
 //!
 //! A [`Fingerprint`] is two formulas, the right one and the wrong one, and a scene that shows
-//! where they differ: a sphere under a distant light, seen without perspective. [`render`]
+//! where they differ: a sphere, its material, an eye and some lights. [`render`]
 //! draws correct, buggy and their ratio side by side with the profile along the equator;
 //! [`raw`] and [`profile`] give the numbers behind the picture.
 //!
@@ -19,12 +19,14 @@ mod convergence;
 mod cpu;
 mod error;
 mod exr;
+mod geometry;
 mod gpu;
 mod label;
 mod map;
 mod pen;
 mod picture;
 mod plan;
+mod probe;
 mod profile;
 mod sample;
 mod scene;
@@ -39,16 +41,17 @@ pub use error::Error;
 pub use gpu::gpu_adapter;
 pub use map::{MapSpec, Scale, map_png};
 pub use profile::{ProfilePoint, point_at, profile};
-pub use sample::RADIUS_SHARE;
-pub use scene::Scene;
+pub use scene::{Eye, Light, RADIUS, Scene};
 pub use visibility::Visibility;
 
+use crate::colour::EncodeTable;
 use crate::cpu::Cpu;
 use crate::gpu::{Gpu, Wanted};
 use crate::plan::Plan;
 use crate::profile::Profile;
 use crate::sample::Panel;
 use crate::shade::{Engine, Job, Shaded, shade};
+use crate::visibility::Tally;
 use formula::{Expr, Library};
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
@@ -76,7 +79,7 @@ pub struct Fingerprint<'a> {
     pub right: &'a Expr,
     /// Radiance of the buggy shader.
     pub wrong: &'a Expr,
-    /// The sphere's material and light.
+    /// The sphere's material, its lights and the eye.
     pub scene: Scene,
 }
 
@@ -145,10 +148,13 @@ pub struct Report {
     pub backend: &'static str,
     /// The adapter's name where a graphics processor drew.
     pub adapter: Option<String>,
-    /// Pixels of a panel whose formulas were evaluated.
+    /// Pixels of a panel that were shaded under at least one light, their mirror images aside.
     pub pixels_shaded: u64,
     /// Pixels of a panel that were not.
     pub pixels_skipped: u64,
+    /// Points at which the formulas were evaluated: several in a pixel on an edge, and each under
+    /// every light that reaches it.
+    pub points: u64,
     /// Calls of the formulas that were evaluated.
     pub terms_evaluated: Vec<String>,
     /// Calls that were not evaluated point by point, and why.
@@ -163,11 +169,14 @@ pub struct Report {
     pub visibility: Visibility,
 }
 
-/// The linear values of both panels, rows from the top; 0 where nothing is lit or seen.
+/// The linear values of both panels, rows from the top; 0 where nothing is lit or seen. Of
+/// several channels, the values of a pixel stand side by side.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Raw {
     /// Width and height in pixels.
     pub size: u32,
+    /// 1, or 3 (red, green, blue) where a light has a colour.
+    pub channels: u32,
     /// Values of the right formula; a pixel on an edge is averaged over its area.
     pub right: Vec<f64>,
     /// Values of the wrong formula.
@@ -199,7 +208,9 @@ pub fn render(
         },
         cancel,
     )?;
-    let visibility = visibility::measure(fingerprint, &cpu, &drawn.shaded);
+    let mut tally = Tally::default();
+    tally.add(&drawn.shaded, &EncodeTable::new());
+    let visibility = visibility::measure(fingerprint, &cpu, &drawn.panel, &tally);
     let canvas = if options.compact || options.size < LEAST_WITH_TEXT {
         picture::compact(&drawn.panel, &drawn.shaded)
     } else {
@@ -222,6 +233,7 @@ pub fn render(
             adapter: drawn.adapter,
             pixels_shaded: drawn.shaded.pixels,
             pixels_skipped: pixels - drawn.shaded.pixels,
+            points: drawn.shaded.points,
             terms_evaluated: plan.evaluated,
             terms_skipped: plan.skipped,
             explain: plan.explain,
@@ -250,6 +262,7 @@ pub fn raw(fingerprint: &Fingerprint<'_>, options: &Options) -> Result<Raw, Erro
     )?;
     Ok(Raw {
         size: options.size,
+        channels: drawn.shaded.channels() as u32,
         right: drawn.shaded.right,
         wrong: drawn.shaded.wrong,
     })
@@ -273,20 +286,34 @@ fn draw_panels(
     if !(MIN_SIZE..=MAX_SIZE).contains(&options.size) {
         return Err(Error::Size(options.size));
     }
-    fingerprint.scene.check()?;
+    let scene = &fingerprint.scene;
+    scene.check()?;
     let panel = Panel {
         size: options.size as usize,
-        geometry: fingerprint.scene.geometry(),
-        azimuth: plan.azimuth,
+        radius: scene.radius,
         everywhere: !plan.lens,
+        columns: plan.columns,
     };
+    let geometries = scene.geometries();
+    let light = |&index: &usize| (geometries[index], scene.lights[index].weights());
     let job = Job {
         panel,
+        lights: plan.lights.iter().map(light).collect(),
+        channels: if scene.is_grey() { 1 } else { 3 },
         mirror: plan.mirror,
         exposure: shown.exposure,
         raw: shown.raw,
         cancel,
     };
+    if job.lights.is_empty() {
+        // Whatever was asked for: what draws nothing need not be started.
+        return Ok(Drawn {
+            panel,
+            shaded: shade(&job, &Engine::Idle)?,
+            backend: "cpu",
+            adapter: None,
+        });
+    }
     let on_cpu = || -> Result<Drawn, Error> {
         let engine = Engine::Cpu(Box::new(Cpu::new(fingerprint, plan)?));
         let shaded = shade(&job, &engine)?;

@@ -11,7 +11,8 @@ use crate::sample::Panel;
 use crate::shade::Shaded;
 use crate::text::{Weight, shorten, wrap};
 use crate::visibility::Visibility;
-use crate::{Error, Fingerprint};
+use crate::{Error, Eye, Fingerprint, Light};
+use std::array::from_fn;
 
 /// The sphere where no light reaches it, in the ratio's panel.
 const UNLIT: Rgb = [9, 10, 13];
@@ -149,17 +150,21 @@ pub(crate) fn full(
 fn panels(canvas: &mut Canvas, panel: &Panel, shaded: &Shaded, columns: [usize; 3], top: usize) {
     let size = panel.size;
     let (encode, diverging) = (EncodeTable::new(), DivergingTable::new());
+    let channels = shaded.channels();
     let surround = DARK.panel.map(|byte| srgb_decode(byte) as f32);
     for row in 0..size {
         for column in 0..size {
             let index = row * size + column;
             let cover = panel.cover(column, row);
             let behind = 1.0 - cover as f32;
-            let shown = |seen: f32| match cover {
+            let shown = |seen: &[f32]| match cover {
                 0.0 => DARK.panel,
-                1.0 => [encode.byte(seen); 3],
-                _ => surround.map(|paper| encode.byte(seen + behind * paper)),
+                1.0 => from_fn(|channel| encode.byte(seen[channel % channels])),
+                _ => from_fn(|channel| {
+                    encode.byte(seen[channel % channels] + behind * surround[channel])
+                }),
             };
+            let values = index * channels..(index + 1) * channels;
             let lit = f64::from(shaded.lit[index]);
             let ratio = match lit {
                 _ if cover == 0.0 => DARK.panel,
@@ -172,8 +177,8 @@ fn panels(canvas: &mut Canvas, panel: &Panel, shaded: &Shaded, columns: [usize; 
                 ),
             };
             let colours = [
-                shown(shaded.right_seen[index]),
-                shown(shaded.wrong_seen[index]),
+                shown(&shaded.right_seen[values.clone()]),
+                shown(&shaded.wrong_seen[values]),
                 ratio,
             ];
             for (left, colour) in columns.into_iter().zip(colours) {
@@ -354,13 +359,10 @@ fn draw_profile(
             .collect::<Vec<_>>()
     };
     let geometry = fingerprint.scene.geometry();
-    let (terminator, rim) = geometry.lit_equator();
+    let one_light = fingerprint.scene.lights.len() == 1;
+    let (terminator, rim) = geometry.lit_along();
     let spec = PlotSpec {
-        x_label: match fingerprint.scene.light_deg {
-            0.0 => "position across the sphere, along the equator".to_owned(),
-            _ => "position across the sphere, along the equator (the light is on the right)"
-                .to_owned(),
-        },
+        x_label: x_label(&fingerprint.scene.lights).to_owned(),
         y_label: "radiance (1 = white)".to_owned(),
         y_log: true,
         series: vec![
@@ -396,7 +398,7 @@ fn draw_profile(
         theme: &DARK,
         x_range: Some((-1.0, 1.0)),
         y_range: Some((low * 0.8, high * 1.5)),
-        bands: if terminator > -rim {
+        bands: if one_light && terminator > -rim {
             vec![(-1.0, terminator.sin(), "not lit".to_owned())]
         } else {
             Vec::new()
@@ -415,6 +417,44 @@ fn draw_profile(
     )
 }
 
+/// What the horizontal axis of the profile is, in words.
+fn x_label(lights: &[Light]) -> &'static str {
+    match lights {
+        [only] if only.deg == 0.0 => "position across the sphere, along the equator",
+        [only] if only.turn_deg == 0.0 => {
+            "position across the sphere, along the equator (the light is on the right)"
+        }
+        [_] => "position across the sphere, towards the light (on the right here)",
+        _ => "position across the sphere, towards the first light (on the right here)",
+    }
+}
+
+/// The lights in words.
+fn lights(lights: &[Light], number: impl Fn(f64) -> String) -> String {
+    let near = |light: &Light| match light.distance {
+        None => String::new(),
+        Some(distance) => format!(", {} radii away", number(distance)),
+    };
+    match lights {
+        [only] => {
+            let place = match only.distance {
+                None => "distant light",
+                Some(_) => "light",
+            };
+            format!("{place} {}° from the eye{}", number(only.deg), near(only))
+        }
+        _ => {
+            let first: Vec<String> = lights
+                .iter()
+                .take(3)
+                .map(|light| format!("{}°{}", number(light.deg), near(light)))
+                .collect();
+            let more = if lights.len() > 3 { ", …" } else { "" };
+            format!("{} lights: {}{more}", lights.len(), first.join("; "))
+        }
+    }
+}
+
 /// The lines at the foot: scene and exposure.
 fn notes(fingerprint: &Fingerprint<'_>, profile: &Profile, exposure: f64) -> Vec<String> {
     let scene = &fingerprint.scene;
@@ -423,16 +463,21 @@ fn notes(fingerprint: &Fingerprint<'_>, profile: &Profile, exposure: f64) -> Vec
         text.trim_end_matches('0').trim_end_matches('.').to_owned()
     };
     let mut line = format!(
-        "roughness {} (α = {}) · F₀ = {} · light {}° from the eye",
+        "roughness {} (α = {}) · F₀ = {} · {}",
         number(scene.roughness),
         number(scene.roughness * scene.roughness),
         number(scene.f0),
-        number(scene.light_deg),
+        lights(&scene.lights, number),
     );
     for (name, value) in &scene.others {
         line.push_str(&format!(" · {name} = {}", number(*value)));
     }
-    line.push_str(" · orthographic eye, distant light");
+    match scene.eye {
+        Eye::Orthographic => line.push_str(" · orthographic eye"),
+        Eye::Perspective { distance } => {
+            line.push_str(&format!(" · eye {} radii away", number(distance)));
+        }
+    }
     let share = formula::format_number(100.0 * HIGHLIGHT_SHARE, formula::Digits::Decimals(0));
     let exposure = formula::format_number(exposure, formula::Digits::Significant(3));
     let mut notes = vec![

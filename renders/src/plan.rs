@@ -1,21 +1,27 @@
 //! What of a picture must be computed: decided from the formulas, before anything is.
 
 use crate::Fingerprint;
-use crate::scene::{AZIMUTH, VARYING};
+use crate::scene::{VARYING, column};
 use formula::{Expr, Node, Program};
 use std::collections::BTreeSet;
 
 /// The decisions for one picture, and the reasons in words.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Plan {
-    /// Shade the upper half and copy it: with eye and light in one plane the lower half mirrors it.
+    /// Shade the upper half and copy it: with eye and lights in one plane the lower half mirrors
+    /// it.
     pub mirror: bool,
     /// Shade only pixels in the lit and visible part of the sphere.
     pub lens: bool,
     /// Evaluate calls that are constant over the picture beforehand.
     pub fold: bool,
-    /// Fill the column of the azimuth.
-    pub azimuth: bool,
+    /// The lights that are shaded, by their places in the scene.
+    pub lights: Vec<usize>,
+    /// The columns of [`VARYING`] that have a value for each point.
+    pub columns: [bool; VARYING.len()],
+    /// The columns of [`VARYING`] that a shader is given: it knows the others as constants, or
+    /// does not need them.
+    pub uploaded: [bool; VARYING.len()],
     /// `wrong / right` after what both have in common has cancelled: the wrong value is then the
     /// right one times this.
     pub ratio: Option<Expr>,
@@ -33,69 +39,127 @@ impl Plan {
         let (right, wrong) = (calls(fingerprint.right), calls(fingerprint.wrong));
         Self {
             evaluated: right.union(&wrong).cloned().collect(),
-            azimuth: true,
-            explain: vec!["nothing is skipped: every pixel, every term".to_owned()],
+            lights: (0..fingerprint.scene.lights.len()).collect(),
+            columns: [true; VARYING.len()],
+            uploaded: [true; VARYING.len()],
+            explain: vec!["nothing is skipped: every pixel, every light, every term".to_owned()],
             ..Self::default()
         }
     }
 
-    /// What the formulas allow to leave out.
+    /// What the formulas and the scene allow to leave out.
     pub fn of(fingerprint: &Fingerprint<'_>, skip: bool) -> Self {
         if !skip {
             return Self::nothing_skipped(fingerprint);
         }
+        let mut plan = Self {
+            lens: true,
+            fold: true,
+            ..Self::default()
+        };
+        plan.choose_pixels(fingerprint);
+        plan.choose_terms(fingerprint);
+        plan.choose_columns(fingerprint);
+        plan
+    }
+
+    /// Lights that reach nothing, pixels that are not lit, and the half that mirrors the other.
+    fn choose_pixels(&mut self, fingerprint: &Fingerprint<'_>) {
+        let scene = &fingerprint.scene;
+        let geometries = scene.geometries();
+        for (index, (light, geometry)) in scene.lights.iter().zip(&geometries).enumerate() {
+            let name = index + 1;
+            if light.weights() == [0.0; 3] {
+                self.explain
+                    .push(format!("light {name} is not shaded: it gives no light"));
+            } else if !geometry.reaches() {
+                self.explain.push(format!(
+                    "light {name} is not shaded: it stands behind the sphere and reaches nothing that is seen"
+                ));
+            } else {
+                self.lights.push(index);
+            }
+        }
+        let several = self.lights.len() > 1;
+        self.explain.push(match several {
+            false => "pixels that are outside the sphere or that no light reaches are not shaded".to_owned(),
+            true => "pixels that are outside the sphere are not shaded, and for each light those that it does not reach"
+                .to_owned(),
+        });
+        self.mirror = self
+            .lights
+            .iter()
+            .all(|&light| geometries[light].is_level());
+        if self.mirror {
+            let lights = if several { "lights" } else { "light" };
+            self.explain.push(format!(
+                "the lower half is copied from the upper: with eye and {lights} in the horizontal plane they mirror each other"
+            ));
+        }
+    }
+
+    /// What cancels in buggy / correct, and what is constant.
+    fn choose_terms(&mut self, fingerprint: &Fingerprint<'_>) {
         let Fingerprint {
             library,
             right,
             wrong,
             ..
         } = fingerprint;
-        let mut plan = Self {
-            mirror: true,
-            lens: true,
-            fold: true,
-            ..Self::default()
-        };
-        plan.azimuth = [right, wrong]
-            .iter()
-            .any(|expr| library.needs(expr).contains(AZIMUTH));
-        plan.explain.push(
-            "pixels that are outside the sphere or that no light reaches are not shaded".to_owned(),
-        );
-        plan.explain.push(
-            "the lower half is copied from the upper: eye and light stand in the horizontal plane, so they mirror each other"
-                .to_owned(),
-        );
-        plan.ratio = library.ratio(right, wrong).filter(|ratio| {
+        self.ratio = library.ratio(right, wrong).filter(|ratio| {
             // Worth it only where the ratio is less work than the wrong formula itself.
             let work = |expr: &Expr| program(fingerprint, expr).map(|program| program.ops());
             matches!((work(ratio), work(wrong)), (Ok(ratio), Ok(wrong)) if ratio < wrong)
         });
         let of_right = calls(right);
-        let of_wrong = calls(plan.ratio.as_ref().unwrap_or(wrong));
+        let of_wrong = calls(self.ratio.as_ref().unwrap_or(wrong));
+        let same = fingerprint.scene.same();
         for call in of_right.union(&of_wrong) {
-            let constant = formula::parse(call).is_ok_and(|expr| constant(fingerprint, &expr));
-            if constant {
-                plan.skipped.push(format!(
+            let is =
+                |same| formula::parse(call).is_ok_and(|expr| constant(fingerprint, &expr, same));
+            if is(&same.everywhere) {
+                self.skipped.push(format!(
                     "{call}: the same over the whole picture, evaluated once"
                 ));
+            } else if is(&same.a_light) {
+                self.skipped.push(format!(
+                    "{call}: the same over the whole picture under each light, evaluated once for each"
+                ));
             } else {
-                plan.evaluated.push(call.clone());
+                self.evaluated.push(call.clone());
             }
         }
         for call in calls(wrong).difference(&of_wrong) {
-            plan.skipped.push(format!(
+            self.skipped.push(format!(
                 "{call} of the buggy formula: cancels in buggy / correct"
             ));
         }
-        if let Some(ratio) = &plan.ratio {
-            plan.explain.push(format!(
+        if let Some(ratio) = &self.ratio {
+            self.explain.push(format!(
                 "the buggy value is the correct one times {}: what both have in common cancels",
                 library.unicode(ratio)
             ));
         }
-        plan.explain.extend(plan.skipped.iter().cloned());
-        plan
+        self.explain.extend(self.skipped.iter().cloned());
+    }
+
+    /// Which quantities have to be known at every point.
+    fn choose_columns(&mut self, fingerprint: &Fingerprint<'_>) {
+        let Fingerprint {
+            library,
+            right,
+            wrong,
+            ..
+        } = fingerprint;
+        let second = self.ratio.as_ref().unwrap_or(wrong);
+        let mut needed = library.needs(right);
+        needed.append(&mut library.needs(second));
+        let same = fingerprint.scene.same();
+        for (index, name) in VARYING.iter().enumerate() {
+            let needed = needed.contains(*name);
+            self.columns[index] = needed && !same.a_light[index];
+            self.uploaded[index] = needed && !same.everywhere[index];
+        }
     }
 }
 
@@ -135,17 +199,39 @@ pub(crate) fn program(
 /// The formula with its constant calls evaluated: a shader then holds their values, as the CPU's
 /// program computes them once a block.
 pub(crate) fn folded(fingerprint: &Fingerprint<'_>, expr: &Expr) -> Expr {
-    let values = fingerprint.scene.constants().into_iter().collect();
-    fold(fingerprint, expr, &values)
+    let mut values: formula::Values = fingerprint.scene.constants().into_iter().collect();
+    let same = fingerprint.scene.same().everywhere;
+    for (index, value) in of_main_light(fingerprint) {
+        if same[index] {
+            values.insert(VARYING[index].to_owned(), value);
+        }
+    }
+    fold(fingerprint, expr, &values, &same)
 }
 
-fn fold(fingerprint: &Fingerprint<'_>, expr: &Expr, values: &formula::Values) -> Expr {
-    let inner = |expr: &Expr| Box::new(fold(fingerprint, expr, values));
+/// The values of those of [`VARYING`] that may be the same everywhere.
+pub(crate) fn of_main_light(fingerprint: &Fingerprint<'_>) -> [(usize, f64); 3] {
+    let geometry = fingerprint.scene.geometry();
+    let (v_dot_h, l_dot_v) = geometry.of_distant();
+    [
+        (column::V_DOT_H, v_dot_h),
+        (column::L_DOT_V, l_dot_v),
+        (column::LIGHT_DEG, geometry.light_deg),
+    ]
+}
+
+fn fold(
+    fingerprint: &Fingerprint<'_>,
+    expr: &Expr,
+    values: &formula::Values,
+    same: &[bool; VARYING.len()],
+) -> Expr {
+    let inner = |expr: &Expr| Box::new(fold(fingerprint, expr, values, same));
     let node = match &expr.node {
         Node::Number { .. } | Node::Name(_) => return expr.clone(),
         Node::Call { .. } => {
             // A call that has no value, or varies, stays what it is.
-            let value = match constant(fingerprint, expr) {
+            let value = match constant(fingerprint, expr, same) {
                 true => fingerprint.library.eval(expr, values).ok(),
                 false => None,
             };
@@ -171,11 +257,10 @@ fn fold(fingerprint: &Fingerprint<'_>, expr: &Expr, values: &formula::Values) ->
     }
 }
 
-/// Whether a formula has one value over the whole picture.
-fn constant(fingerprint: &Fingerprint<'_>, expr: &Expr) -> bool {
-    !fingerprint
-        .library
-        .needs(expr)
-        .iter()
-        .any(|name| VARYING.contains(&name.as_str()))
+/// Whether a formula has one value wherever `same` of [`VARYING`] have one.
+fn constant(fingerprint: &Fingerprint<'_>, expr: &Expr, same: &[bool; VARYING.len()]) -> bool {
+    !fingerprint.library.needs(expr).iter().any(|name| {
+        let place = VARYING.iter().position(|varying| varying == name);
+        place.is_some_and(|index| !same[index])
+    })
 }

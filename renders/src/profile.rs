@@ -1,16 +1,19 @@
-//! The equator of the sphere, from the terminator over the highlight to the lit rim.
+//! The equator of the sphere, through the disc's centre towards the main light: from its
+//! terminator over its highlight to the lit rim.
 
 use crate::Fingerprint;
 use crate::cpu::Cpu;
 use crate::plan::Plan;
-use crate::sample::Samples;
+use crate::probe::{Place, Probe, Probed};
+use crate::shade::luminance;
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// One point of the equator.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProfilePoint {
     /// Across the disc: −1 is the rim away from the light, 0 the centre, 1 the rim towards it.
     pub position: f64,
-    /// Cosine between normal and light.
+    /// Cosine between normal and main light; negative where only others reach.
     pub n_dot_l: f64,
     /// Cosine between normal and view.
     pub n_dot_v: f64,
@@ -24,61 +27,56 @@ pub struct ProfilePoint {
 
 /// `samples` points of the lit equator, evenly spaced in angle, so that rim and terminator are as
 /// well resolved as the middle. The ends themselves, where a bug may be infinite, are left out.
+/// Under several lights the whole equator, without the points that no light reaches.
 ///
 /// Empty where a formula cannot be evaluated in this scene.
 pub fn profile(fingerprint: &Fingerprint<'_>, samples: usize) -> Vec<ProfilePoint> {
     match Cpu::new(fingerprint, &Plan::of(fingerprint, true)) {
-        Ok(cpu) => along(fingerprint, &cpu, samples),
+        Ok(cpu) => along(&Probe::new(fingerprint, &cpu), samples),
         Err(_) => Vec::new(),
     }
 }
 
-/// The point of the sphere seen at (`x`, `y`), in radii from the disc's centre, x towards the
-/// light, y upwards; `None` where nothing is lit or seen, or a formula does not fit the scene.
+/// The point of the sphere seen at (`x`, `y`), in radii from the disc's centre, to the right and
+/// upwards; `None` where nothing is lit or seen, or a formula does not fit the scene.
 pub fn point_at(fingerprint: &Fingerprint<'_>, x: f64, y: f64) -> Option<ProfilePoint> {
-    let geometry = fingerprint.scene.geometry();
-    let point = geometry.lit(x, y)?;
+    let q2 = 1.0 - (x * x + y * y);
+    if q2.is_nan() || q2 <= 0.0 {
+        return None;
+    }
     let cpu = Cpu::new(fingerprint, &Plan::of(fingerprint, true)).ok()?;
-    let values = cpu.evaluate(&Samples::of(&geometry, [point]));
-    Some(ProfilePoint {
-        position: x,
-        n_dot_l: point.n_dot_l,
-        n_dot_v: point.n_dot_v,
-        right: *values.right.first()?,
-        wrong: *values.wrong.first()?,
-        ratio: *values.ratio.first()?,
-    })
+    let probe = Probe::new(fingerprint, &cpu);
+    let found = *probe.at(&[[x, y, q2.sqrt()]]).first()?;
+    found.lit.then(|| point(x, &found))
 }
 
-fn along(fingerprint: &Fingerprint<'_>, cpu: &Cpu, samples: usize) -> Vec<ProfilePoint> {
-    let (from, to) = fingerprint.scene.geometry().lit_equator();
+fn point(position: f64, probed: &Probed) -> ProfilePoint {
+    ProfilePoint {
+        position,
+        n_dot_l: probed.main.n_dot_l,
+        n_dot_v: probed.main.n_dot_v,
+        right: luminance(&probed.right),
+        wrong: luminance(&probed.wrong),
+        ratio: probed.ratio,
+    }
+}
+
+fn along(probe: &Probe<'_>, samples: usize) -> Vec<ProfilePoint> {
+    let (from, to) = match probe.several() {
+        true => (-FRAC_PI_2, FRAC_PI_2),
+        false => probe.main().lit_along(),
+    };
     let angles: Vec<f64> = (0..samples)
         .map(|i| from + (to - from) * (i as f64 + 0.5) / samples as f64)
         .collect();
-    at_angles(fingerprint, cpu, &angles)
+    at_angles(probe, &angles)
 }
 
-/// The points of the equator at these angles (radians from the centre towards the light).
-pub(crate) fn at_angles(
-    fingerprint: &Fingerprint<'_>,
-    cpu: &Cpu,
-    angles: &[f64],
-) -> Vec<ProfilePoint> {
-    let geometry = fingerprint.scene.geometry();
-    let samples = Samples::of(&geometry, angles.iter().map(|&psi| geometry.equator(psi)));
-    let values = cpu.evaluate(&samples);
-    angles
-        .iter()
-        .enumerate()
-        .map(|(i, psi)| ProfilePoint {
-            position: psi.sin(),
-            n_dot_l: samples.n_dot_l[i],
-            n_dot_v: samples.n_dot_v[i],
-            right: values.right[i],
-            wrong: values.wrong[i],
-            ratio: values.ratio[i],
-        })
-        .collect()
+/// The lit points of the equator at these angles (radians from the centre towards the light).
+pub(crate) fn at_angles(probe: &Probe<'_>, angles: &[f64]) -> Vec<ProfilePoint> {
+    let probed = probe.at(&probe.places(angles.iter().copied()));
+    let lit = angles.iter().zip(&probed).filter(|(_, probed)| probed.lit);
+    lit.map(|(psi, probed)| point(psi.sin(), probed)).collect()
 }
 
 /// A dense profile, kept to draw the curves and to choose the exposure.
@@ -87,6 +85,8 @@ pub(crate) struct Profile {
     /// The power of 1/(N·V) with which the wrong value grows towards the rim: 0 where it is
     /// finite there, 2 where its sum over the picture is not.
     pub rim_growth: f64,
+    /// The greatest correct value of any channel that was met.
+    brightest: f64,
 }
 
 /// The brightest correct point is shown at this share of white.
@@ -94,26 +94,24 @@ pub(crate) const HIGHLIGHT_SHARE: f64 = 0.95;
 
 impl Profile {
     pub fn of(fingerprint: &Fingerprint<'_>, cpu: &Cpu) -> Self {
-        let near_rim = [1e-4, 1e-5].map(|n_dot_v: f64| n_dot_v.acos());
-        let ends = at_angles(fingerprint, cpu, &near_rim);
-        let rim_growth = (ends[1].wrong / ends[0].wrong).log10();
+        let probe = Probe::new(fingerprint, cpu);
+        let points = along(&probe, 1024);
+        let brightest = match probe.several() || !fingerprint.scene.is_grey() {
+            true => brightest(&probe),
+            false => finite(points.iter().map(|point| point.right)),
+        };
         Self {
-            points: along(fingerprint, cpu, 1024),
-            rim_growth,
+            points,
+            rim_growth: rim_growth(&probe),
+            brightest,
         }
     }
 
-    /// The factor that puts the brightest correct point of the equator just below white. It
-    /// depends on the scene alone, never on the bug or on the picture's size.
+    /// The factor that puts the brightest correct point just below white. It depends on the
+    /// scene alone, never on the bug or on the picture's size.
     pub fn exposure(&self) -> f64 {
-        let brightest = self
-            .points
-            .iter()
-            .map(|p| p.right)
-            .filter(|v| v.is_finite())
-            .fold(0.0, f64::max);
-        if brightest > 0.0 {
-            HIGHLIGHT_SHARE / brightest
+        if self.brightest > 0.0 {
+            HIGHLIGHT_SHARE / self.brightest
         } else {
             1.0
         }
@@ -139,4 +137,53 @@ impl Profile {
             })
             .collect()
     }
+}
+
+fn finite(values: impl Iterator<Item = f64>) -> f64 {
+    values.filter(|value| value.is_finite()).fold(0.0, f64::max)
+}
+
+/// The greatest correct value at every light's highlight, along its direction, and over a grid.
+fn brightest(probe: &Probe<'_>) -> f64 {
+    const GRID: usize = 48;
+    let mut places = Vec::new();
+    for geometry in probe.geometries() {
+        places.push(geometry.place(geometry.highlight()));
+        let (from, to) = geometry.lit_along();
+        let angle = |step: i32| from + (to - from) * (f64::from(step) + 0.5) / 16.0;
+        places.extend((0..16).map(|step| geometry.place(angle(step))));
+    }
+    let unit = |step: usize| 2.0 * (step as f64 + 0.5) / GRID as f64 - 1.0;
+    for (row, column) in (0..GRID * GRID).map(|index| (index / GRID, index % GRID)) {
+        let (x, y) = (unit(column), unit(row));
+        let q2 = 1.0 - x * x - y * y;
+        if q2 > 0.0 {
+            places.push([x, y, q2.sqrt()]);
+        }
+    }
+    finite(probe.at(&places).iter().flat_map(|probed| probed.right))
+}
+
+/// The greatest power of 1/(N·V) with which the wrong value grows towards the rim, of some
+/// places around it.
+///
+/// None of them is where a distant light's terminator meets the rim: any value that grows with
+/// 1/(N·L·N·V) does so there as the square, but in one point, which adds up to nothing.
+fn rim_growth(probe: &Probe<'_>) -> f64 {
+    const AROUND: usize = 16;
+    let turn = probe.main().turn_angle();
+    let ring = |q: f64| {
+        let radius = (1.0 - q * q).sqrt();
+        (0..AROUND).map(move |i| {
+            // The first is exactly towards the main light; none is square to it.
+            let angle = turn + TAU * (i as f64 + if i == 0 { 0.0 } else { 0.5 }) / AROUND as f64;
+            [radius * angle.cos(), radius * angle.sin(), q]
+        })
+    };
+    let places: Vec<Place> = [1e-4, 1e-5].into_iter().flat_map(ring).collect();
+    let probed = probe.at(&places);
+    let (far, near) = probed.split_at(AROUND);
+    let growth =
+        |(far, near): (&Probed, &Probed)| (luminance(&near.wrong) / luminance(&far.wrong)).log10();
+    finite(far.iter().zip(near).map(growth))
 }

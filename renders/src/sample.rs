@@ -1,10 +1,9 @@
-//! Where a panel is sampled: once in a pixel that lies wholly in the lit lens, on a grid of
-//! points in a pixel that its edge crosses, nowhere else.
+//! Where a panel is sampled: once in a pixel that lies wholly in the lit lens of a light, on a
+//! grid of points in a pixel that its edge crosses, nowhere else.
 
-use crate::scene::{Geometry, Point};
-
-/// Radius of the sphere, as a share of the panel's width.
-pub const RADIUS_SHARE: f64 = 0.47;
+use crate::geometry::{Geometry, Point, Stretches};
+use crate::scene::{VARYING, column};
+use std::ops::Range;
 
 /// Lines in a pixel that an edge crosses, and points on each.
 const EDGE_GRID: usize = 4;
@@ -13,35 +12,49 @@ const EDGE_GRID: usize = 4;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Panel {
     pub size: usize,
-    pub geometry: Geometry,
-    /// Whether a formula needs the azimuth between light and view.
-    pub azimuth: bool,
+    /// Radius of the outline as a share of half the width.
+    pub radius: f64,
     /// Shade every pixel, even where nothing can be seen.
     pub everywhere: bool,
+    /// The columns of [`VARYING`] to fill at every point; of the others one value is kept.
+    pub columns: [bool; VARYING.len()],
 }
 
-/// The samples of some rows: columns of inputs, and which pixel each belongs to.
+/// One input of the formulas at all samples.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Input<'a> {
+    /// The same at each.
+    Uniform(f64),
+    /// One value for each.
+    Varying(&'a [f64]),
+}
+
+/// The samples of some rows under one light: columns of inputs, and which pixel each belongs to.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Samples {
-    pub n_dot_l: Vec<f64>,
-    pub n_dot_v: Vec<f64>,
-    pub n_dot_h: Vec<f64>,
-    /// Empty where no formula needs it.
-    pub cos_phi: Vec<f64>,
+    /// The values of [`VARYING`]; empty where they are all the same or not needed.
+    columns: [Vec<f64>; VARYING.len()],
+    /// What stands for an empty column.
+    uniform: [f64; VARYING.len()],
+    /// Whether the light is near, so that not all of it arrives everywhere.
+    near: bool,
+    /// How much of the light arrives; empty where all of it does.
+    pub arrives: Vec<f64>,
     /// The pixel's index in the panel, and the share of it that the sample stands for.
     pub pixel: Vec<(u32, f32)>,
-    /// Pixels with at least one sample.
-    pub pixels: u64,
 }
 
 impl Samples {
     /// The points themselves, in the order given, each for a whole pixel of its own.
-    pub fn of(geometry: &Geometry, points: impl IntoIterator<Item = Point>) -> Self {
+    pub fn of(
+        geometry: &Geometry,
+        columns: &[bool; VARYING.len()],
+        points: impl IntoIterator<Item = Point>,
+    ) -> Self {
         let mut samples = Self::default();
+        samples.start(geometry);
         for (index, point) in points.into_iter().enumerate() {
-            samples.push(point, index as u32, 1.0);
-            samples.cos_phi.push(geometry.cos_phi(&point));
-            samples.pixels += 1;
+            samples.push(columns, &point, index as u32, 1.0);
         }
         samples
     }
@@ -50,205 +63,256 @@ impl Samples {
         self.pixel.len()
     }
 
+    /// Empties all columns for the points under this light.
+    fn start(&mut self, geometry: &Geometry) {
+        self.columns.iter_mut().for_each(Vec::clear);
+        self.arrives.clear();
+        self.pixel.clear();
+        self.near = geometry.is_near_light();
+        let (v_dot_h, l_dot_v) = geometry.of_distant();
+        self.uniform[column::V_DOT_H] = v_dot_h;
+        self.uniform[column::L_DOT_V] = l_dot_v;
+        self.uniform[column::LIGHT_DEG] = geometry.light_deg;
+    }
+
     #[inline]
-    fn push(&mut self, point: Point, pixel: u32, share: f32) {
-        self.n_dot_l.push(point.n_dot_l);
-        self.n_dot_v.push(point.n_dot_v);
-        self.n_dot_h.push(point.n_dot_h);
+    fn push(&mut self, wanted: &[bool; VARYING.len()], point: &Point, pixel: u32, share: f32) {
+        self.columns[0].push(point.n_dot_l);
+        self.columns[1].push(point.n_dot_v);
+        self.columns[2].push(point.n_dot_h);
+        if wanted[column::COS_PHI] {
+            self.columns[column::COS_PHI].push(Geometry::cos_phi(point));
+        }
+        if wanted[column::V_DOT_H] {
+            self.columns[column::V_DOT_H].push(point.v_dot_h);
+        }
+        if wanted[column::L_DOT_V] {
+            self.columns[column::L_DOT_V].push(point.l_dot_v);
+        }
+        if wanted[column::LIGHT_DEG] {
+            self.columns[column::LIGHT_DEG].push(self.uniform[column::LIGHT_DEG]);
+        }
+        if self.near {
+            self.arrives.push(point.arrives);
+        }
         self.pixel.push((pixel, share));
     }
 
-    /// The columns of [`crate::scene::VARYING`] from `start` up to, not including, `end`.
-    pub fn columns(&self, start: usize, end: usize) -> [Option<&[f64]>; 4] {
-        [&self.n_dot_l, &self.n_dot_v, &self.n_dot_h, &self.cos_phi]
-            .map(|column| column.get(start..end))
+    /// One of [`VARYING`] from `start` up to, not including, `end`.
+    pub fn input(&self, index: usize, range: Range<usize>) -> Input<'_> {
+        match self.columns[index].get(range) {
+            Some(values) if !self.columns[index].is_empty() => Input::Varying(values),
+            _ => Input::Uniform(self.uniform[index]),
+        }
+    }
+
+    /// [`Samples::input`] of every one of [`VARYING`].
+    pub fn inputs(&self, range: &Range<usize>) -> [Input<'_>; VARYING.len()] {
+        std::array::from_fn(|index| self.input(index, range.clone()))
     }
 }
 
-/// Columns of one row: those that the lit lens touches, and among them those it fills.
-struct Reach {
-    touched: std::ops::Range<usize>,
-    filled: std::ops::Range<usize>,
+/// What a light reaches in one row of pixels.
+struct Row {
+    /// The lines within the row on which pixels at an edge are sampled, and what is lit of them.
+    lines: [(f64, Stretches); EDGE_GRID],
+    /// Columns that the lens touches, and among them those it fills.
+    touched: Stretches,
+    filled: Stretches,
 }
 
 impl Panel {
-    /// Radius of the sphere in pixels.
-    pub fn radius(&self) -> f64 {
-        RADIUS_SHARE * self.size as f64
+    /// Radius of the sphere's outline in pixels.
+    pub fn outline(&self) -> f64 {
+        self.radius * self.size as f64 / 2.0
     }
 
-    /// Position of a pixel coordinate in units of the radius.
+    /// Position of a pixel coordinate in units of the outline's radius, to the right.
     pub fn unit(&self, pixels: f64) -> f64 {
-        (pixels - self.size as f64 / 2.0) / self.radius()
+        (pixels - self.size as f64 / 2.0) / self.outline()
+    }
+
+    /// The same upwards.
+    fn up(&self, pixels: f64) -> f64 {
+        -self.unit(pixels)
     }
 
     /// The share of a pixel that the sphere's disc covers.
     pub fn cover(&self, column: usize, row: usize) -> f64 {
         let (x, y) = (self.unit(column as f64 + 0.5), self.unit(row as f64 + 0.5));
-        (self.radius() * (1.0 - (x * x + y * y).sqrt()) + 0.5).clamp(0.0, 1.0)
+        (self.outline() * (1.0 - (x * x + y * y).sqrt()) + 0.5).clamp(0.0, 1.0)
     }
 
-    /// The samples of the rows from `first` up to, not including, `last`.
-    pub fn samples(&self, first: usize, last: usize) -> Samples {
+    /// The samples of the rows from `first` up to, not including, `last` under one light.
+    pub fn samples(&self, geometry: &Geometry, first: usize, last: usize) -> Samples {
         let mut samples = Samples::default();
-        for row in first..last {
-            let reach = self.reach(row);
-            if self.everywhere {
-                self.unseen(&mut samples, row, 0..reach.touched.start);
-            }
-            let pixel = |column: usize| (row * self.size + column) as u32;
-            for column in reach.touched.start..reach.filled.start {
-                self.edge(&mut samples, column, row, pixel(column));
-            }
-            let y = self.unit(row as f64 + 0.5);
-            for column in reach.filled.clone() {
-                if let Some(point) = self.geometry.point(self.unit(column as f64 + 0.5), y) {
-                    samples.push(point, pixel(column), 1.0);
-                    samples.pixels += 1;
-                }
-            }
-            for column in reach.filled.end..reach.touched.end {
-                self.edge(&mut samples, column, row, pixel(column));
-            }
-            if self.everywhere {
-                self.unseen(&mut samples, row, reach.touched.end..self.size);
-            }
-        }
-        if self.azimuth {
-            samples.cos_phi = (0..samples.len())
-                .map(|i| {
-                    self.geometry.cos_phi(&Point {
-                        n_dot_l: samples.n_dot_l[i],
-                        n_dot_v: samples.n_dot_v[i],
-                        n_dot_h: samples.n_dot_h[i],
-                    })
-                })
-                .collect();
-        }
+        self.fill(&mut samples, geometry, first, last);
         samples
     }
 
-    /// Which pixels of a row the lit lens touches and fills, from where its edges cross the
-    /// row's upper, middle and lower line.
-    fn reach(&self, row: usize) -> Reach {
-        let lines =
-            [0.0, 0.5, 1.0].map(|part| self.geometry.lit_stretch(self.unit(row as f64 + part)));
-        let seen = |(from, to): &&(f64, f64)| from < to;
-        let pixels = |unit: f64| unit * self.radius() + self.size as f64 / 2.0;
-        let column = |at: f64| at.clamp(0.0, self.size as f64) as usize;
-        let start = lines
-            .iter()
-            .filter(seen)
-            .map(|line| line.0)
-            .fold(f64::INFINITY, f64::min);
-        let end = lines
-            .iter()
-            .filter(seen)
-            .map(|line| line.1)
-            .fold(f64::NEG_INFINITY, f64::max);
-        if start >= end {
-            let nothing = self.size..self.size;
-            return Reach {
-                touched: nothing.clone(),
-                filled: nothing,
-            };
-        }
-        let touched = column(pixels(start).floor())..column(pixels(end).ceil());
-        let inner = if lines.iter().all(|line| seen(&line)) {
-            let from = lines
-                .iter()
-                .map(|line| line.0)
-                .fold(f64::NEG_INFINITY, f64::max);
-            let to = lines
-                .iter()
-                .map(|line| line.1)
-                .fold(f64::INFINITY, f64::min);
-            column(pixels(from).ceil())..column(pixels(to).floor())
-        } else {
-            0..0
-        };
-        let filled = if inner.start < inner.end {
-            inner
-        } else {
-            touched.end..touched.end
-        };
-        Reach { touched, filled }
-    }
-
-    /// Pixels that nobody sees: shaded to show what skipping saves, and counted for nothing.
-    fn unseen(&self, samples: &mut Samples, row: usize, columns: std::ops::Range<usize>) {
-        let y = self.unit(row as f64 + 0.5);
-        for column in columns {
-            let x = self.unit(column as f64 + 0.5);
-            let point = self
-                .geometry
-                .point(x, y)
-                .unwrap_or(self.geometry.equator(0.0));
-            samples.push(point, (row * self.size + column) as u32, 0.0);
-            samples.pixels += 1;
-        }
-    }
-
-    /// Samples one stretch of a line whose half-width on the sphere is `rho`; a stretch as long as
-    /// `whole` would stand for the whole pixel.
-    fn stretch(
-        &self,
-        samples: &mut Samples,
-        (from, to): (f64, f64),
-        rho: f64,
-        whole: f64,
-        pixel: u32,
-    ) {
-        let angle = |x: f64| (x / rho).clamp(-1.0, 1.0).asin();
-        let (start, end) = (angle(from), angle(to));
-        let points: [Point; EDGE_GRID] = std::array::from_fn(|j| {
-            let t = start + (end - start) * (j as f64 + 0.5) / EDGE_GRID as f64;
-            self.geometry.at(rho * t.sin(), rho * t.cos())
-        });
-        let weight: f64 = points.iter().map(|point| point.n_dot_v).sum();
-        for point in points {
-            if point.n_dot_l > 0.0 && point.n_dot_v > 0.0 {
-                let share = (to - from) / whole * point.n_dot_v / weight;
-                samples.push(point, pixel, share as f32);
+    /// [`Panel::samples`] into memory that is there already.
+    pub fn fill(&self, samples: &mut Samples, geometry: &Geometry, first: usize, last: usize) {
+        samples.start(geometry);
+        for row in first..last {
+            let reach = self.row(geometry, row);
+            let y = self.up(row as f64 + 0.5);
+            let columns = |span: &(f64, f64)| (span.0 as usize)..(span.1 as usize);
+            let mut next = 0;
+            for touched in reach.touched.as_slice().iter().map(columns) {
+                self.unseen(samples, geometry, row, next..touched.start);
+                next = touched.start;
+                for filled in reach.filled.as_slice().iter().map(columns) {
+                    if filled.start < next || filled.end > touched.end {
+                        continue;
+                    }
+                    for column in next..filled.start {
+                        self.edge(samples, geometry, &reach, column, row);
+                    }
+                    for column in filled.clone() {
+                        if let Some(point) = geometry.point(self.unit(column as f64 + 0.5), y) {
+                            samples.push(&self.columns, &point, self.pixel(column, row), 1.0);
+                        }
+                    }
+                    next = filled.end;
+                }
+                for column in next..touched.end {
+                    self.edge(samples, geometry, &reach, column, row);
+                }
+                next = touched.end;
             }
+            self.unseen(samples, geometry, row, next..self.size);
         }
     }
 
-    /// A pixel that an edge of the lens crosses: the mean over its lit part.
-    ///
-    /// On each of a few lines the lit stretch within the pixel is sampled evenly in the angle t
-    /// of x = ρ sin t. There dx = N·V dt, so that what grows as 1/(N·V) towards the rim is
-    /// averaged without error: points spread evenly in x would hit or miss the growth by chance.
-    fn edge(&self, samples: &mut Samples, column: usize, row: usize, pixel: u32) {
-        let before = samples.len();
-        let (left, right) = (self.unit(column as f64), self.unit(column as f64 + 1.0));
-        let offset = |i: usize| (i as f64 + 0.5) / EDGE_GRID as f64;
-        for i in 0..EDGE_GRID {
-            // The lower half is walked upwards, so that a pixel and its mirror image sum the same
-            // numbers in the same order and agree to the last bit.
+    fn pixel(&self, column: usize, row: usize) -> u32 {
+        (row * self.size + column) as u32
+    }
+
+    /// Which pixels of a row the lit lens touches and fills.
+    fn row(&self, geometry: &Geometry, row: usize) -> Row {
+        let at = |part: f64| self.up(row as f64 + part);
+        // The lower half is walked upwards, so that a pixel and its mirror image sum the same
+        // numbers in the same order and agree to the last bit.
+        let offset = |i: usize| {
             let i = if 2 * row < self.size {
                 i
             } else {
                 EDGE_GRID - 1 - i
             };
-            let y = self.unit(row as f64 + offset(i));
-            let (terminator, rim) = self.geometry.lit_stretch(y);
-            let (from, to) = (terminator.max(left), rim.min(right));
-            // Also false where the line misses the sphere and both ends are NaN.
-            if from < to {
-                self.stretch(
-                    samples,
-                    (from, to),
-                    rim,
-                    (right - left) * EDGE_GRID as f64,
-                    pixel,
-                );
+            (i as f64 + 0.5) / EDGE_GRID as f64
+        };
+        let lines: [(f64, Stretches); EDGE_GRID] = std::array::from_fn(|i| {
+            let y = at(offset(i));
+            (y, geometry.lit(y))
+        });
+        let pixels = |unit: f64| unit * self.outline() + self.size as f64 / 2.0;
+        let clamp = |at: f64| at.clamp(0.0, self.size as f64);
+        let whole = |stretches: &Stretches, outwards: bool| {
+            let mut whole = Stretches::default();
+            for &(from, to) in stretches.as_slice() {
+                let (from, to) = (clamp(pixels(from)), clamp(pixels(to)));
+                whole.push(match outwards {
+                    true => (from.floor(), to.ceil()),
+                    false => (from.ceil(), to.floor()),
+                });
+            }
+            whole
+        };
+        let mut touched = Stretches::default();
+        let mut filled =
+            whole(&geometry.lit(at(0.0)), false).and(&whole(&geometry.lit(at(1.0)), false));
+        for (_, line) in &lines {
+            touched = touched.or(&whole(line, true));
+            filled = filled.and(&whole(line, false));
+        }
+        Row {
+            lines,
+            touched,
+            filled,
+        }
+    }
+
+    /// Pixels that nobody sees: shaded to show what skipping saves, and counted for nothing.
+    fn unseen(
+        &self,
+        samples: &mut Samples,
+        geometry: &Geometry,
+        row: usize,
+        columns: Range<usize>,
+    ) {
+        if !self.everywhere {
+            return;
+        }
+        let y = self.up(row as f64 + 0.5);
+        for column in columns {
+            let x = self.unit(column as f64 + 0.5);
+            let point = geometry
+                .point(x, y)
+                .unwrap_or_else(|| geometry.at(0.0, 0.0, 1.0));
+            samples.push(&self.columns, &point, self.pixel(column, row), 0.0);
+        }
+    }
+
+    /// A pixel that an edge of the lens crosses: the mean over its lit part.
+    ///
+    /// On each of a few lines the lit stretches within the pixel are sampled evenly in the angle
+    /// t of x = ρ sin t. There dx = q dt, and q falls to 0 at the outline as N·V does, so that
+    /// what grows as 1/(N·V) towards the rim is averaged without error: points spread evenly in
+    /// x would hit or miss the growth by chance.
+    fn edge(
+        &self,
+        samples: &mut Samples,
+        geometry: &Geometry,
+        reach: &Row,
+        column: usize,
+        row: usize,
+    ) {
+        let before = samples.len();
+        let (left, right) = (self.unit(column as f64), self.unit(column as f64 + 1.0));
+        let whole = (right - left) * EDGE_GRID as f64;
+        for (y, line) in &reach.lines {
+            for &(from, to) in line.as_slice() {
+                let (from, to) = (from.max(left), to.min(right));
+                if from < to {
+                    self.stretch(
+                        samples,
+                        geometry,
+                        (*y, from, to),
+                        whole,
+                        self.pixel(column, row),
+                    );
+                }
             }
         }
-        if samples.len() > before {
-            samples.pixels += 1;
-        } else if self.everywhere {
-            self.unseen(samples, row, column..column + 1);
+        if samples.len() == before {
+            self.unseen(samples, geometry, row, column..column + 1);
+        }
+    }
+
+    /// Samples one stretch of a line; a stretch as long as `whole` would stand for the whole
+    /// pixel.
+    fn stretch(
+        &self,
+        samples: &mut Samples,
+        geometry: &Geometry,
+        (y, from, to): (f64, f64, f64),
+        whole: f64,
+        pixel: u32,
+    ) {
+        let rho = (1.0 - y * y).sqrt();
+        let angle = |x: f64| (x / rho).clamp(-1.0, 1.0).asin();
+        let (start, end) = (angle(from), angle(to));
+        let points: [(Point, f64); EDGE_GRID] = std::array::from_fn(|j| {
+            let t = start + (end - start) * (j as f64 + 0.5) / EDGE_GRID as f64;
+            let q = rho * t.cos();
+            (geometry.at(rho * t.sin(), y, q), q)
+        });
+        let weight: f64 = points.iter().map(|(_, q)| q).sum();
+        for (point, q) in &points {
+            if point.n_dot_l > 0.0 && point.n_dot_v > 0.0 {
+                let share = (to - from) / whole * q / weight;
+                samples.push(&self.columns, point, pixel, share as f32);
+            }
         }
     }
 }
@@ -256,48 +320,111 @@ impl Panel {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Scene;
+    use crate::{Eye, Light};
 
-    /// The area of the lit lens is π/2 (1 + cos light) of the radius squared.
-    #[track_caller]
-    fn check_area(light_deg: f64) {
-        let scene = Scene {
-            roughness: 0.4,
-            f0: 0.04,
-            light_deg,
-            others: Default::default(),
-        };
-        let panel = Panel {
-            size: 200,
-            geometry: scene.geometry(),
-            azimuth: false,
+    const SIZE: usize = 200;
+
+    fn panel() -> Panel {
+        Panel {
+            size: SIZE,
+            radius: 0.94,
             everywhere: false,
-        };
-        let samples = panel.samples(0, panel.size);
+            columns: [true; VARYING.len()],
+        }
+    }
+
+    /// The sampled area is the expected one, in squares of the radius, and every sample is lit.
+    #[track_caller]
+    fn check_area(eye: Eye, light: Light, expected: f64) {
+        let panel = panel();
+        let samples = panel.samples(&Geometry::new(eye, &light), 0, panel.size);
         let area: f64 = samples
             .pixel
             .iter()
             .map(|(_, share)| f64::from(*share))
-            .sum();
-        let expected = std::f64::consts::FRAC_PI_2
-            * (1.0 + light_deg.to_radians().cos())
-            * panel.radius().powi(2);
+            .sum::<f64>()
+            / panel.outline().powi(2);
         assert!(
             (area - expected).abs() < 2e-3 * expected,
-            "{light_deg}°: {area} instead of {expected}"
+            "{eye:?}, {light:?}: {area} instead of {expected}"
         );
         for i in 0..samples.len() {
             assert!(
-                samples.n_dot_l[i] > 0.0 && samples.n_dot_v[i] > 0.0,
-                "sample {i} at {light_deg}°"
+                samples.columns[0][i] > 0.0 && samples.columns[1][i] > 0.0,
+                "sample {i}: {eye:?}, {light:?}"
             );
         }
     }
 
+    /// The area of the disc in which the normal, found by shooting a ray at the sphere, is turned
+    /// to the light.
+    fn shot(eye: Eye, light: &Light) -> f64 {
+        const STEPS: i32 = 1500;
+        let (deg, turn) = (light.deg.to_radians(), light.turn_deg.to_radians());
+        let towards = [deg.sin() * turn.cos(), deg.sin() * turn.sin(), deg.cos()];
+        let unit = |step: i32| (2.0 * f64::from(step) + 1.0) / f64::from(STEPS) - 1.0;
+        let normal = |x: f64, y: f64| match eye {
+            Eye::Orthographic => [x, y, (1.0 - x * x - y * y).sqrt()],
+            Eye::Perspective { distance } => {
+                // The outline is seen at tan = 1/√(distance² − 1).
+                let tan = 1.0 / (distance * distance - 1.0).sqrt();
+                let ray = [x * tan, y * tan, -1.0];
+                let length2 = ray[0] * ray[0] + ray[1] * ray[1] + 1.0;
+                let along = distance
+                    * (1.0 - (1.0 - length2 * (1.0 - 1.0 / (distance * distance))).sqrt())
+                    / length2;
+                [ray[0] * along, ray[1] * along, distance - along]
+            }
+        };
+        let lit = |x: f64, y: f64| {
+            let n = normal(x, y);
+            let facing: f64 = (0..3).map(|i| n[i] * towards[i]).sum();
+            facing > light.distance.map_or(0.0, |distance| 1.0 / distance)
+        };
+        let places = (0..STEPS).flat_map(|row| (0..STEPS).map(move |column| (row, column)));
+        let hits = places
+            .map(|(row, column)| (unit(column), unit(row)))
+            .filter(|(x, y)| x * x + y * y < 1.0 && lit(*x, *y))
+            .count();
+        4.0 * hits as f64 / f64::from(STEPS).powi(2)
+    }
+
     #[test]
     fn the_lens_is_sampled_and_nothing_else() {
-        [0.0, 30.0, 60.0, 90.0, 130.0]
-            .into_iter()
-            .for_each(check_area);
+        for deg in [0.0, 30.0, 60.0, 90.0, 130.0] {
+            for turn_deg in [0.0, 45.0, 90.0, 180.0, 260.0] {
+                let light = Light {
+                    turn_deg,
+                    ..Light::distant(deg)
+                };
+                // The area of the lit lens is π/2 (1 + cos light) of the radius squared.
+                let area = std::f64::consts::FRAC_PI_2 * (1.0 + deg.to_radians().cos());
+                check_area(Eye::Orthographic, light, area);
+            }
+        }
+    }
+
+    #[test]
+    fn the_lens_of_a_near_light_or_eye_is_sampled_and_nothing_else() {
+        let light = |deg, turn_deg, distance| Light {
+            turn_deg,
+            distance,
+            ..Light::distant(deg)
+        };
+        let near = Eye::Perspective { distance: 1.8 };
+        for (eye, light) in [
+            (Eye::Orthographic, light(40.0, 30.0, Some(1.5))),
+            (Eye::Orthographic, light(100.0, 120.0, Some(3.0))),
+            (near, light(0.0, 0.0, None)),
+            (near, light(70.0, 0.0, None)),
+            (near, light(110.0, 90.0, None)),
+            (near, light(35.0, 200.0, Some(1.2))),
+            (
+                Eye::Perspective { distance: 40.0 },
+                light(80.0, 77.0, Some(9.0)),
+            ),
+        ] {
+            check_area(eye, light, shot(eye, &light));
+        }
     }
 }

@@ -2,10 +2,15 @@
 
 use crate::cpu::Cpu;
 use crate::error::Error;
+use crate::geometry::Geometry;
 use crate::gpu::Gpu;
 use crate::sample::{Panel, Samples};
 use rayon::prelude::*;
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Samples that a graphics processor is given at once, about: what they need is bounded.
+const TILE: usize = 1 << 20;
 
 /// Rows of a panel that are sampled and evaluated together: their samples stay in the cache.
 const BAND: usize = 4;
@@ -60,25 +65,33 @@ fn clamp(value: &mut f64) {
 pub(crate) enum Engine {
     Cpu(Box<Cpu>),
     Gpu(Box<Gpu>),
+    /// Nothing is to be evaluated.
+    Idle,
 }
 
 impl Engine {
-    pub fn evaluate(&self, samples: &Samples) -> Result<Values, Error> {
+    pub fn evaluate(&self, samples: &[Samples]) -> Result<Vec<Values>, Error> {
         match self {
-            Self::Cpu(cpu) => Ok(cpu.evaluate(samples)),
+            Self::Cpu(cpu) => Ok(samples
+                .iter()
+                .map(|samples| cpu.evaluate(samples))
+                .collect()),
             Self::Gpu(gpu) => gpu.evaluate(samples),
+            Self::Idle => Ok(samples.iter().map(|_| Values::default()).collect()),
         }
     }
 }
 
-/// Both panels, rows from the top.
+/// Both panels, or some rows of them, from the top.
+///
+/// Values of several channels stand side by side for each pixel.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Shaded {
     /// Linear values, each pixel the mean over its area; empty unless asked for.
     pub right: Vec<f64>,
     pub wrong: Vec<f64>,
-    /// What is seen of each pixel: every sample exposed and cut at white before it is averaged.
-    /// A rim far brighter than white would else show stairs.
+    /// What is seen of each pixel: exposed and cut at white before it is averaged over the
+    /// pixel. A rim far brighter than white would else show stairs.
     pub right_seen: Vec<f32>,
     pub wrong_seen: Vec<f32>,
     /// The share of each pixel that is lit and seen.
@@ -87,42 +100,65 @@ pub(crate) struct Shaded {
     pub brighter: Vec<f32>,
     /// Mean over each pixel's lit part of log2(wrong / right).
     pub stops: Vec<f32>,
-    /// Pixels that were evaluated.
+    /// Pixels that were evaluated for at least one light.
     pub pixels: u64,
+    /// Points at which the formulas were evaluated, under each light.
+    pub points: u64,
+}
+
+/// Luminance of linear red, green and blue (Rec. 709), or a grey value itself.
+pub(crate) fn luminance(channels: &[f64]) -> f64 {
+    match channels {
+        [red, green, blue] if red == green && green == blue => *red,
+        [red, green, blue] => 0.2126 * red + 0.7152 * green + 0.0722 * blue,
+        _ => channels.iter().sum(),
+    }
 }
 
 impl Shaded {
-    fn empty(pixels: usize, raw: bool) -> Self {
-        let values = if raw { pixels } else { 0 };
+    fn empty(pixels: usize, channels: usize, raw: bool) -> Self {
+        let values = if raw { channels * pixels } else { 0 };
         Self {
             right: vec![0.0; values],
             wrong: vec![0.0; values],
-            right_seen: vec![0.0; pixels],
-            wrong_seen: vec![0.0; pixels],
+            right_seen: vec![0.0; channels * pixels],
+            wrong_seen: vec![0.0; channels * pixels],
             lit: vec![0.0; pixels],
             brighter: vec![0.0; pixels],
             stops: vec![0.0; pixels],
             pixels: 0,
+            points: 0,
         }
     }
 
-    /// Adds the samples of the rows that start at pixel `first`.
-    fn add(&mut self, samples: &Samples, values: &Values, first: usize, exposure: f64) {
-        let seen = |value: f64| (value * exposure).min(1.0) as f32;
+    /// Values that stand side by side for each pixel.
+    pub fn channels(&self) -> usize {
+        (self.right_seen.len() / self.lit.len().max(1)).max(1)
+    }
+
+    /// Adds the samples under the only light there is; the rows start at pixel `first`. Every
+    /// sample is cut at white by itself.
+    fn add_only(&mut self, samples: &Samples, values: &Values, first: usize, job: &Job<'_>) {
+        let weights = job.weights(0);
         for (index, &(pixel, share)) in samples.pixel.iter().enumerate() {
             if share == 0.0 {
                 continue;
             }
             let pixel = pixel as usize - first;
             let (right, wrong) = (values.right[index], values.wrong[index]);
-            if let (Some(right_sum), Some(wrong_sum)) =
-                (self.right.get_mut(pixel), self.wrong.get_mut(pixel))
-            {
-                *right_sum += f64::from(share) * right;
-                *wrong_sum += f64::from(share) * wrong;
+            let arrives = samples.arrives.get(index).copied().unwrap_or(1.0);
+            for (channel, weight) in weights.iter().enumerate() {
+                let at = pixel * weights.len() + channel;
+                let (right, wrong) = (right * arrives * weight, wrong * arrives * weight);
+                if let (Some(right_sum), Some(wrong_sum)) =
+                    (self.right.get_mut(at), self.wrong.get_mut(at))
+                {
+                    *right_sum += f64::from(share) * right;
+                    *wrong_sum += f64::from(share) * wrong;
+                }
+                self.right_seen[at] += share * job.seen(right);
+                self.wrong_seen[at] += share * job.seen(wrong);
             }
-            self.right_seen[pixel] += share * seen(right);
-            self.wrong_seen[pixel] += share * seen(wrong);
             self.lit[pixel] += share;
             self.brighter[pixel] += if values.ratio[index] > 1.0 {
                 share
@@ -134,7 +170,52 @@ impl Shaded {
         for (stops, lit) in self.stops.iter_mut().zip(&self.lit) {
             *stops /= lit.max(f32::MIN_POSITIVE);
         }
-        self.pixels += samples.pixels;
+    }
+
+    /// Adds the samples under one of several lights to the linear values.
+    fn add_light(&mut self, samples: &Samples, values: &Values, first: usize, weights: &[f64]) {
+        let mut lit = vec![0.0_f32; self.lit.len()];
+        for (index, &(pixel, share)) in samples.pixel.iter().enumerate() {
+            if share == 0.0 {
+                continue;
+            }
+            let pixel = pixel as usize - first;
+            let arrives = f64::from(share) * samples.arrives.get(index).copied().unwrap_or(1.0);
+            for (channel, weight) in weights.iter().enumerate() {
+                // Nothing, times an infinite value, is nothing here.
+                if *weight > 0.0 {
+                    let at = pixel * weights.len() + channel;
+                    self.right[at] += arrives * weight * values.right[index];
+                    self.wrong[at] += arrives * weight * values.wrong[index];
+                }
+            }
+            lit[pixel] += share;
+        }
+        for (whole, lit) in self.lit.iter_mut().zip(lit) {
+            *whole = whole.max(lit);
+        }
+    }
+
+    /// After the last of several lights: what is seen of their sum.
+    fn finish(&mut self, channels: usize, job: &Job<'_>) {
+        for (pixel, &lit) in self.lit.iter().enumerate() {
+            if lit == 0.0 {
+                continue;
+            }
+            let values = pixel * channels..(pixel + 1) * channels;
+            for at in values.clone() {
+                let seen = |sum: f64| lit * job.seen(sum / f64::from(lit));
+                self.right_seen[at] = seen(self.right[at]);
+                self.wrong_seen[at] = seen(self.wrong[at]);
+            }
+            let ratio = luminance(&self.wrong[values.clone()]) / luminance(&self.right[values]);
+            self.brighter[pixel] = if ratio > 1.0 { lit } else { 0.0 };
+            self.stops[pixel] = stops(ratio);
+        }
+        if !job.raw {
+            self.right = Vec::new();
+            self.wrong = Vec::new();
+        }
     }
 
     fn append(&mut self, below: &Self) {
@@ -146,16 +227,18 @@ impl Shaded {
         self.brighter.extend_from_slice(&below.brighter);
         self.stops.extend_from_slice(&below.stops);
         self.pixels += below.pixels;
+        self.points += below.points;
     }
 
     /// Adds a copy of these pixels at the end, which were evaluated already.
-    fn append_copy(&mut self, pixels: std::ops::Range<usize>) {
+    fn append_copy(&mut self, pixels: Range<usize>, channels: usize) {
+        let values = pixels.start * channels..pixels.end * channels;
         if !self.right.is_empty() {
-            self.right.extend_from_within(pixels.clone());
-            self.wrong.extend_from_within(pixels.clone());
+            self.right.extend_from_within(values.clone());
+            self.wrong.extend_from_within(values.clone());
         }
-        self.right_seen.extend_from_within(pixels.clone());
-        self.wrong_seen.extend_from_within(pixels.clone());
+        self.right_seen.extend_from_within(values.clone());
+        self.wrong_seen.extend_from_within(values);
         self.lit.extend_from_within(pixels.clone());
         self.brighter.extend_from_within(pixels.clone());
         self.stops.extend_from_within(pixels);
@@ -175,6 +258,11 @@ fn stops(ratio: f64) -> f32 {
 /// What is shaded and how.
 pub(crate) struct Job<'a> {
     pub panel: Panel,
+    /// The sphere under each light that counts, and what each channel of that light is
+    /// multiplied by.
+    pub lights: Vec<(Geometry, [f64; 3])>,
+    /// 1 where all lights are grey, else 3.
+    pub channels: usize,
     /// Evaluate the upper half only: the lower is its mirror image.
     pub mirror: bool,
     pub exposure: f64,
@@ -183,41 +271,87 @@ pub(crate) struct Job<'a> {
     pub cancel: &'a AtomicBool,
 }
 
-/// Shades a whole panel. Bands are put together in their order, so the result does not depend
-/// on how many threads there are.
+impl Job<'_> {
+    fn weights(&self, light: usize) -> &[f64] {
+        &self.lights[light].1[..self.channels]
+    }
+
+    /// A linear value as it is seen: exposed, and cut at white.
+    fn seen(&self, value: f64) -> f32 {
+        (value * self.exposure).min(1.0) as f32
+    }
+
+    /// Some rows, evaluated together.
+    fn rows(&self, engine: &Engine, rows: Range<usize>) -> Result<Shaded, Error> {
+        if self.cancel.load(Ordering::Relaxed) {
+            return Err(Error::Cancelled);
+        }
+        let size = self.panel.size;
+        let first = rows.start * size;
+        let several = self.lights.len() > 1;
+        let mut part = Shaded::empty(rows.len() * size, self.channels, self.raw || several);
+        // A processor's cache holds one light's samples; a graphics processor wants them all.
+        let together = match engine {
+            Engine::Gpu(_) => self.lights.len(),
+            Engine::Cpu(_) | Engine::Idle => 1,
+        };
+        for (index, lights) in self.lights.chunks(together.max(1)).enumerate() {
+            let samples: Vec<Samples> = lights
+                .iter()
+                .map(|(geometry, _)| self.panel.samples(geometry, rows.start, rows.end))
+                .collect();
+            let values = engine.evaluate(&samples)?;
+            for (light, (samples, values)) in samples.iter().zip(&values).enumerate() {
+                part.points += samples.len() as u64;
+                match several {
+                    true => {
+                        let weights = self.weights(index * together + light);
+                        part.add_light(samples, values, first, weights);
+                    }
+                    false => part.add_only(samples, values, first, self),
+                }
+            }
+        }
+        if several {
+            part.finish(self.channels, self);
+        }
+        let lit = part.lit.iter().filter(|lit| **lit > 0.0).count();
+        part.pixels = match self.panel.everywhere && !self.lights.is_empty() {
+            true => (rows.len() * size) as u64,
+            false => lit as u64,
+        };
+        Ok(part)
+    }
+
+    /// Some rows of the panel, in bands that are put together in their order, so that the result
+    /// does not depend on how many threads there are.
+    pub fn shade(&self, engine: &Engine, rows: Range<usize>) -> Result<Shaded, Error> {
+        let band = match engine {
+            Engine::Cpu(_) | Engine::Idle => BAND,
+            Engine::Gpu(_) => {
+                (TILE / self.panel.size / self.lights.len().max(1)).clamp(1, rows.len().max(1))
+            }
+        };
+        let starts: Vec<usize> = rows.clone().step_by(band).collect();
+        let band = |&first: &usize| self.rows(engine, first..(first + band).min(rows.end));
+        let parts: Result<Vec<Shaded>, Error> = match engine {
+            Engine::Cpu(_) | Engine::Idle => starts.par_iter().map(band).collect(),
+            Engine::Gpu(_) => starts.iter().map(band).collect(),
+        };
+        let mut whole = Shaded::default();
+        parts?.iter().for_each(|part| whole.append(part));
+        Ok(whole)
+    }
+}
+
+/// Shades a whole panel.
 pub(crate) fn shade(job: &Job<'_>, engine: &Engine) -> Result<Shaded, Error> {
     let size = job.panel.size;
     let rows = if job.mirror { size.div_ceil(2) } else { size };
-    let band = |first: usize, last: usize| {
-        if job.cancel.load(Ordering::Relaxed) {
-            return Err(Error::Cancelled);
-        }
-        let samples = job.panel.samples(first, last);
-        let mut part = Shaded::empty((last - first) * size, job.raw);
-        part.add(
-            &samples,
-            &engine.evaluate(&samples)?,
-            first * size,
-            job.exposure,
-        );
-        Ok(part)
-    };
-    let mut shaded = match engine {
-        Engine::Cpu(_) => {
-            let starts: Vec<usize> = (0..rows).step_by(BAND).collect();
-            let parts: Result<Vec<Shaded>, Error> = starts
-                .par_iter()
-                .map(|&first| band(first, (first + BAND).min(rows)))
-                .collect();
-            let mut whole = Shaded::default();
-            parts?.iter().for_each(|part| whole.append(part));
-            whole
-        }
-        Engine::Gpu(_) => band(0, rows)?,
-    };
+    let mut shaded = job.shade(engine, 0..rows)?;
     for row in rows..size {
         let twin = size - 1 - row;
-        shaded.append_copy(twin * size..(twin + 1) * size);
+        shaded.append_copy(twin * size..(twin + 1) * size, job.channels);
     }
     Ok(shaded)
 }

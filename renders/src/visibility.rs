@@ -3,11 +3,12 @@
 use crate::Fingerprint;
 use crate::colour::EncodeTable;
 use crate::cpu::Cpu;
-use crate::profile::at_angles;
-use crate::sample::Samples;
-use crate::shade::Shaded;
+use crate::probe::{Place, Probe, Probed};
+use crate::sample::Panel;
+use crate::shade::{Shaded, luminance};
 
-/// What a fingerprint shows, in numbers.
+/// What a fingerprint shows, in numbers. Under several lights highlight and terminator are the
+/// main light's, the first of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Visibility {
     /// Share of the lit, visible area in which the buggy value is greater than the correct one.
@@ -27,28 +28,79 @@ pub struct Visibility {
     pub changed_8: (f64, f64),
 }
 
-pub(crate) fn measure(fingerprint: &Fingerprint<'_>, cpu: &Cpu, shaded: &Shaded) -> Visibility {
-    let geometry = fingerprint.scene.geometry();
-    let (terminator, _) = geometry.lit_equator();
-    // Just inside: the limit from the lit side, not the value at the edge itself.
-    let on_equator = at_angles(fingerprint, cpu, &[geometry.highlight(), terminator + 1e-6]);
-    let (highlight, edge) = (on_equator[0], on_equator[1]);
-    let rim = rim_median(fingerprint, cpu);
+pub(crate) fn measure(
+    fingerprint: &Fingerprint<'_>,
+    cpu: &Cpu,
+    panel: &Panel,
+    tally: &Tally,
+) -> Visibility {
+    let probe = Probe::new(fingerprint, cpu);
+    let main = probe.main();
+    let (terminator, _) = main.lit_along();
+    let highlight = probe.at(&probe.places([main.highlight()]));
+    // Just inside: the limit from the lit side, not the value at the edge itself. What the other
+    // lights give there is no step.
+    let edge = probe.of_main_light().at(&probe.places([terminator + 1e-6]));
+    let wrong = |found: &[Probed]| found.first().map_or(f64::NAN, |it| luminance(&it.wrong));
+    let right = |found: &[Probed]| found.first().map_or(f64::NAN, |it| luminance(&it.right));
+    let rim = rim_median(&probe);
 
-    let area = |shares: &[f32]| shares.iter().map(|&share| f64::from(share)).sum::<f64>();
-    let (brighter_area, lit_area) = (area(&shaded.brighter), area(&shaded.lit));
-    let (brighter, dimmer) = changed(shaded);
+    let disc = std::f64::consts::PI * panel.outline().powi(2);
+    let lit_pixels = tally.lit_pixels as f64;
     Visibility {
-        lit_above_one: share(brighter_area, lit_area),
-        disc_above_one: share(brighter_area, disc_area(shaded)),
-        ratio_at_highlight: highlight.ratio,
-        rim_over_highlight: (rim.0 / highlight.wrong, rim.1 / highlight.right),
+        lit_above_one: share(tally.brighter_area, tally.lit_area),
+        disc_above_one: share(tally.brighter_area, disc),
+        ratio_at_highlight: highlight.first().map_or(f64::NAN, |it| it.ratio),
+        rim_over_highlight: (rim.0 / wrong(&highlight), rim.1 / right(&highlight)),
         terminator_step: if terminator > -1.5 {
-            edge.wrong / highlight.wrong
+            wrong(&edge) / wrong(&highlight)
         } else {
             0.0
         },
-        changed_8: (brighter, dimmer),
+        changed_8: (
+            share(tally.brighter as f64, lit_pixels),
+            share(tally.dimmer as f64, lit_pixels),
+        ),
+    }
+}
+
+/// Sums over the pixels of a picture.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Tally {
+    /// Areas in pixels: lit, and lit where the wrong value is the greater.
+    lit_area: f64,
+    brighter_area: f64,
+    /// Pixels that are lit at all, and those of them that become visibly brighter or dimmer.
+    lit_pixels: u64,
+    brighter: u64,
+    dimmer: u64,
+}
+
+impl Tally {
+    /// Adds the pixels of some rows.
+    pub fn add(&mut self, shaded: &Shaded, encode: &EncodeTable) {
+        let channels = shaded.channels();
+        for (index, (&lit, &brighter)) in shaded.lit.iter().zip(&shaded.brighter).enumerate() {
+            if lit == 0.0 {
+                continue;
+            }
+            self.lit_area += f64::from(lit);
+            self.brighter_area += f64::from(brighter);
+            self.lit_pixels += 1;
+            let level = |seen: f32| 255.0 * encode.signal(seen);
+            // The channel that changes most.
+            let change = (index * channels..(index + 1) * channels)
+                .map(|at| level(shaded.wrong_seen[at]) - level(shaded.right_seen[at]))
+                .fold(0.0_f32, |most, change| {
+                    if change.abs() > most.abs() {
+                        change
+                    } else {
+                        most
+                    }
+                });
+            self.brighter += u64::from(change > 8.0);
+            self.dimmer += u64::from(change < -8.0);
+        }
     }
 }
 
@@ -56,26 +108,27 @@ fn share(part: f64, whole: f64) -> f64 {
     if whole > 0.0 { part / whole } else { 0.0 }
 }
 
-fn disc_area(shaded: &Shaded) -> f64 {
-    let size = (shaded.lit.len() as f64).sqrt();
-    std::f64::consts::PI * (crate::RADIUS_SHARE * size).powi(2)
-}
-
 /// Medians of both formulas over the lit part of the ring between 255/256 of the radius and the
 /// radius, in the same points whatever the picture's size.
-fn rim_median(fingerprint: &Fingerprint<'_>, cpu: &Cpu) -> (f64, f64) {
+fn rim_median(probe: &Probe<'_>) -> (f64, f64) {
     const RINGS: usize = 16;
     const SECTORS: usize = 256;
-    let geometry = fingerprint.scene.geometry();
-    let points = (0..RINGS).flat_map(|ring| {
-        let radius = 1.0 - (ring as f64 + 0.5) / (RINGS as f64 * 256.0);
-        (0..SECTORS).filter_map(move |sector| {
-            let angle = std::f64::consts::TAU * (sector as f64 + 0.5) / SECTORS as f64;
-            geometry.lit(radius * angle.cos(), radius * angle.sin())
+    let places: Vec<Place> = (0..RINGS)
+        .flat_map(|ring| {
+            let radius = 1.0 - (ring as f64 + 0.5) / (RINGS as f64 * 256.0);
+            let q = ((1.0 - radius) * (1.0 + radius)).sqrt();
+            (0..SECTORS).map(move |sector| {
+                let angle = std::f64::consts::TAU * (sector as f64 + 0.5) / SECTORS as f64;
+                [radius * angle.cos(), radius * angle.sin(), q]
+            })
         })
-    });
-    let values = cpu.evaluate(&Samples::of(&geometry, points));
-    (median(values.wrong), median(values.right))
+        .collect();
+    let probed = probe.at(&places);
+    let lit = || probed.iter().filter(|probed| probed.lit);
+    (
+        median(lit().map(|probed| luminance(&probed.wrong)).collect()),
+        median(lit().map(|probed| luminance(&probed.right)).collect()),
+    )
 }
 
 fn median(mut values: Vec<f64>) -> f64 {
@@ -84,24 +137,4 @@ fn median(mut values: Vec<f64>) -> f64 {
     }
     let middle = values.len() / 2;
     *values.select_nth_unstable_by(middle, f64::total_cmp).1
-}
-
-/// Shares of the lit pixels that become visibly brighter and dimmer.
-fn changed(shaded: &Shaded) -> (f64, f64) {
-    let encode = EncodeTable::new();
-    let (mut lit, mut brighter, mut dimmer) = (0_u64, 0_u64, 0_u64);
-    for index in 0..shaded.lit.len() {
-        if shaded.lit[index] == 0.0 {
-            continue;
-        }
-        lit += 1;
-        let level = |seen: f32| 255.0 * encode.signal(seen);
-        let change = level(shaded.wrong_seen[index]) - level(shaded.right_seen[index]);
-        brighter += u64::from(change > 8.0);
-        dimmer += u64::from(change < -8.0);
-    }
-    (
-        share(brighter as f64, lit as f64),
-        share(dimmer as f64, lit as f64),
-    )
 }

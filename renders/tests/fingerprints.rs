@@ -2,7 +2,7 @@
 
 use formula::{Expr, Library};
 use renders::{
-    Backend, Error, Fingerprint, Options, RADIUS_SHARE, Scene, convergence, point_at, profile, raw,
+    Backend, Error, Fingerprint, Options, RADIUS, Scene, convergence, point_at, profile, raw,
     render,
 };
 use std::sync::atomic::AtomicBool;
@@ -23,12 +23,7 @@ fn bug(right: &str, wrong: &str, roughness: f64, f0: f64, light_deg: f64) -> Bug
         library: Library::new(),
         right: parse(right),
         wrong: parse(wrong),
-        scene: Scene {
-            roughness,
-            f0,
-            light_deg,
-            others: Default::default(),
-        },
+        scene: Scene::new(roughness, f0, light_deg),
     }
 }
 
@@ -186,7 +181,7 @@ fn raw_values_are_the_formula_at_the_pixels_centre() {
     let bug = bug(CORRECT, DIVIDED_TWICE, 0.4, 0.9, 60.0);
     let size = 65_u32;
     let raw = raw(&bug.fingerprint(), &cpu(size)).expect("the formulas fit the scene");
-    let radius = RADIUS_SHARE * f64::from(size);
+    let radius = RADIUS * f64::from(size) / 2.0;
     let (column, row) = (40_u32, 20_u32);
     let unit = |pixel: u32| (f64::from(pixel) + 0.5 - f64::from(size) / 2.0) / radius;
     let (x, y) = (unit(column), unit(row));

@@ -41,12 +41,7 @@ fn check_agreement(wrong: &str, roughness: f64, light_deg: f64) {
         library: &library,
         right: &right,
         wrong: &wrong,
-        scene: Scene {
-            roughness,
-            f0: 0.9,
-            light_deg,
-            others: Default::default(),
-        },
+        scene: Scene::new(roughness, 0.9, light_deg),
     };
     let options = |backend| Options {
         size: 96,
@@ -110,12 +105,7 @@ fn both_backends_draw_the_same_picture() {
         library: &library,
         right: &right,
         wrong: &wrong,
-        scene: Scene {
-            roughness: 0.5,
-            f0: 0.3,
-            light_deg: 60.0,
-            others: Default::default(),
-        },
+        scene: Scene::new(0.5, 0.3, 60.0),
     };
     let draw = |backend| {
         let options = Options {
