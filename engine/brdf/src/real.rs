@@ -322,6 +322,12 @@ pub(crate) trait Single: Real {
     fn load(x: f32) -> Self;
     /// To memory.
     fn store(self) -> f32;
+
+    /// 1 − x², without cancellation near 1: one instruction where products are fused.
+    #[inline(always)]
+    fn one_minus_square(self) -> Self {
+        (lit::<Self>(1.0) - self) * (lit::<Self>(1.0) + self)
+    }
 }
 
 impl Single for f32 {
@@ -349,6 +355,10 @@ impl Single for Fused {
     #[inline(always)]
     fn store(self) -> f32 {
         self.0
+    }
+    #[inline(always)]
+    fn one_minus_square(self) -> Fused {
+        (-self).mul_add(self, lit(1.0))
     }
 }
 

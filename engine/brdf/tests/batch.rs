@@ -132,11 +132,16 @@ fn vectors() {
 #[test]
 fn conductors() {
     let mut numbers = Numbers(3);
-    let u = numbers.many(0.0);
+    let mut u = numbers.many(0.0);
+    (u[0], u[1], u[2]) = (0.0, 1.0, 1e-6);
     for (n, k) in [
         (0.143, 3.983),
         (0.375, 2.386),
         (1.442, 1.603),
+        (0.924, 2.447),
+        (0.05, 1.5),
+        (1.0, 1.0),
+        (4.0, 8.0),
         (1.5, 0.0),
         (0.05, 4.0),
         (3.1, 3.3),
@@ -155,6 +160,21 @@ fn conductors() {
             );
             assert_eq!(r, b);
         }
+    }
+}
+
+#[test]
+fn any_metal() {
+    let mut numbers = Numbers(5);
+    let u = numbers.many(0.0);
+    let isa = Isa::best();
+    for _ in 0..60 {
+        let (n, k) = (0.05 + 4.0 * numbers.unit(), 10.0 * numbers.unit());
+        let [mut r, mut g, mut b] = [0; 3].map(|_| vec![0.0; COUNT]);
+        let color = Conductor::new(n, k);
+        batch::conductor_rgb(isa, &[color; 3], &u, [&mut r, &mut g, &mut b]);
+        let truth = |i: usize| f_conductor(f64::from(n), f64::from(k), f64::from(u[i]));
+        check(&format!("{n} {k}"), isa, worst_ulp(&r, truth), 12.0);
     }
 }
 

@@ -2,85 +2,167 @@
 
 use super::{Isa, Level, dispatch};
 use crate::fresnel::f_conductor;
-use crate::real::{Fused, Single, lit};
+use crate::real::{Fused, Real, Single, lit};
 use std::f64::consts::PI;
 
-/// One colour of a conductor, prepared: a of `f_conductor` as a polynomial in sin²θ.
+/// One colour of a conductor, prepared: its reflectance as one quotient.
 ///
-/// Of the exact formula two roots and a quotient depend on sin²θ alone, and smoothly so for a
-/// metal, whose singularities (n ± ik)² are far from [0, 1].
+/// For a given n and k the exact formula is a smooth function of the cosine alone. Its poles lie
+/// at negative cosines, close to 0 beside what a polynomial could follow; a quotient of two
+/// polynomials of degree 4 does, for every metal, to far less than single precision can hold.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Conductor {
     n: f32,
     k: f32,
-    /// Coefficients of a/polynomial in 2 sin²θ − 1, or `None` where too few digits would do.
-    smooth: Option<[f32; COEFFICIENTS]>,
+    /// `None` where too few digits would do: mostly where k is below 1.
+    quotient: Option<Quotient<f32>>,
 }
 
-/// Of a polynomial of degree 5, which is enough for every metal.
-const COEFFICIENTS: usize = 6;
+/// Of both polynomials.
+const DEGREE: usize = 4;
+
+/// Values that the quotient is fitted to.
+const NODES: usize = 48;
+
+/// The unknown coefficients: the first of the divisor is 1.
+const UNKNOWNS: usize = 2 * DEGREE + 1;
+
+/// Most that the quotient, computed in single precision, may be wrong where it is tried.
+const TOLERATED_ULPS: f64 = 9.0;
+
+/// Dividend and divisor by powers of the cosine, lowest first.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Quotient<R> {
+    dividend: [R; DEGREE + 1],
+    divisor: [R; DEGREE + 1],
+}
+
+impl<R: Real> Quotient<R> {
+    #[inline(always)]
+    fn at(&self, c: R) -> R {
+        let horner = |[c0, c1, c2, c3, c4]: [R; DEGREE + 1]| {
+            c4.mul_add(c, c3)
+                .mul_add(c, c2)
+                .mul_add(c, c1)
+                .mul_add(c, c0)
+        };
+        horner(self.dividend) / horner(self.divisor)
+    }
+
+    fn map<S>(&self, f: impl Fn(R) -> S) -> Quotient<S> {
+        Quotient {
+            dividend: self.dividend.map(&f),
+            divisor: self.divisor.map(&f),
+        }
+    }
+}
 
 impl Conductor {
-    /// Fits the polynomial; its error is checked.
+    /// Fits the quotient, and tries it.
     pub fn new(n: f32, k: f32) -> Conductor {
-        let (nn, kk) = (f64::from(n), f64::from(k));
-        // a² = (sqrt(t² + 4 n² k²) + t)/2 with t = n² − k² − sin²θ, without cancellation.
-        let a = |s2: f64| {
-            let t = nn * nn - kk * kk - s2;
-            let root = t.hypot(2.0 * nn * kk);
-            let large = 0.5 * (root + t.abs());
-            let a2 = if t < 0.0 {
-                (nn * kk) * (nn * kk) / large
-            } else {
-                large
-            };
-            a2.sqrt()
-        };
-        let powers = interpolate(|x| a(0.5 + 0.5 * x));
-        let polynomial = |x: f64| powers.iter().rev().fold(0.0, |sum, c| sum * x + c);
-        // Where little is reflected, a − c would cancel what the polynomial rounds.
-        let fits = k >= n
-            && (0..=64).all(|i| {
-                let s2 = f64::from(i) / 64.0;
-                (polynomial(2.0 * s2 - 1.0) - a(s2)).abs() <= 3e-8 * a(s2)
-            });
+        let exact = |c: f64| f_conductor(f64::from(n), f64::from(k), c);
+        let quotient = fit(exact).map(|fitted| fitted.map(|c| c as f32));
         Conductor {
             n,
             k,
-            smooth: fits.then(|| powers.map(|c| c as f32)),
+            quotient: quotient.filter(|quotient| {
+                (0..=512).all(|i| {
+                    // Closer together towards grazing.
+                    let c = (i as f32 / 512.0) * (i as f32 / 512.0);
+                    let truth = exact(f64::from(c));
+                    let ulp = (libm::log2(truth).floor() - 23.0).exp2();
+                    (f64::from(quotient.at(c)) - truth).abs() <= TOLERATED_ULPS * ulp
+                })
+            }),
         }
     }
 }
 
-/// Powers of the polynomial through a function on [−1, 1] at Chebyshev's nodes.
-fn interpolate(f: impl Fn(f64) -> f64) -> [f64; COEFFICIENTS] {
-    let count = COEFFICIENTS as f64;
-    let angle = |j: usize| PI * (j as f64 + 0.5) / count;
-    let values: [f64; COEFFICIENTS] = std::array::from_fn(|j| f(libm::cos(angle(j))));
-    let mut powers = [0.0; COEFFICIENTS];
-    // T_0 = 1, T_1 = x, T_{i+1} = 2 x T_i − T_{i−1}.
-    let (mut before, mut now) = ([0.0; COEFFICIENTS], [0.0; COEFFICIENTS]);
-    now[0] = 1.0;
-    for i in 0..COEFFICIENTS {
-        let factor = if i == 0 { 1.0 } else { 2.0 };
-        let sum: f64 = (0..COEFFICIENTS)
-            .map(|j| values[j] * libm::cos(i as f64 * angle(j)))
-            .sum();
-        let mut next = before.map(|x: f64| -x);
-        for j in 0..COEFFICIENTS {
-            powers[j] += factor * sum / count * now[j];
-            if j > 0 {
-                next[j] += factor * now[j - 1];
+/// Fits to a function on [0, 1], with relative errors that are nearly even.
+///
+/// Linear least squares of f · divisor − dividend, again and again: divided by the last
+/// divisor (Sanathanan and Koerner 1963), and with larger weights where the last error was
+/// large (Lawson 1961). The best of all is kept.
+fn fit(f: impl Fn(f64) -> f64) -> Option<Quotient<f64>> {
+    let angle = |i: usize| PI * (i as f64 + 0.5) / NODES as f64;
+    let nodes: [f64; NODES] = std::array::from_fn(|i| 0.5 + 0.5 * libm::cos(angle(i)));
+    let values = nodes.map(f);
+    let (mut divisor, mut weight) = ([1.0; NODES], [1.0; NODES]);
+    let mut best: Option<(f64, Quotient<f64>)> = None;
+    for _ in 0..6 {
+        let mut rows: Vec<[f64; UNKNOWNS + 1]> = (0..NODES)
+            .map(|i| {
+                let scale = weight[i] / (divisor[i] * values[i]);
+                let mut power = scale;
+                let mut row = [0.0; UNKNOWNS + 1];
+                for j in 0..=DEGREE {
+                    row[j] = power;
+                    if j > 0 {
+                        row[DEGREE + j] = -values[i] * power;
+                    }
+                    power *= nodes[i];
+                }
+                row[UNKNOWNS] = values[i] * scale;
+                row
+            })
+            .collect();
+        let x = least_squares(&mut rows);
+        let mut quotient = Quotient {
+            dividend: [0.0; DEGREE + 1],
+            divisor: [1.0; DEGREE + 1],
+        };
+        quotient.dividend.copy_from_slice(&x[..=DEGREE]);
+        quotient.divisor[1..].copy_from_slice(&x[DEGREE + 1..]);
+        let errors: [f64; NODES] =
+            std::array::from_fn(|i| (quotient.at(nodes[i]) / values[i] - 1.0).abs());
+        let worst = errors.into_iter().fold(0.0, f64::max);
+        if !worst.is_finite() {
+            break;
+        }
+        if best.is_none_or(|(least, _)| worst < least) {
+            best = Some((worst, quotient));
+        }
+        for i in 0..NODES {
+            let c = nodes[i];
+            let value = quotient
+                .divisor
+                .iter()
+                .rev()
+                .fold(0.0, |sum, d| sum * c + d);
+            divisor[i] = value.abs();
+            weight[i] *= (errors[i] / worst.max(f64::MIN_POSITIVE) + 1e-3).sqrt();
+        }
+    }
+    best.map(|(_, quotient)| quotient)
+}
+
+/// Solves rows [a | b] for the x that makes |a x − b| least, by Gram and Schmidt.
+fn least_squares(rows: &mut [[f64; UNKNOWNS + 1]]) -> [f64; UNKNOWNS] {
+    // The columns become orthogonal, b is left with the rest; what was taken away is the
+    // triangle.
+    let mut triangle = [[0.0; UNKNOWNS + 1]; UNKNOWNS];
+    for j in 0..UNKNOWNS {
+        let square: f64 = rows.iter().map(|row| row[j] * row[j]).sum();
+        for k in j + 1..=UNKNOWNS {
+            let share = rows.iter().map(|row| row[j] * row[k]).sum::<f64>() / square;
+            triangle[j][k] = share;
+            for row in rows.iter_mut() {
+                row[k] -= share * row[j];
             }
         }
-        (before, now) = (now, next);
     }
-    powers
+    let mut x = [0.0; UNKNOWNS];
+    for j in (0..UNKNOWNS).rev() {
+        let known: f64 = (j + 1..UNKNOWNS).map(|k| triangle[j][k] * x[k]).sum();
+        x[j] = triangle[j][UNKNOWNS] - known;
+    }
+    x
 }
 
 /// Exact reflectance of a conductor in three colours, see [`crate::f_conductor`].
 ///
-/// Within 12 ulps, from a polynomial where k ≥ n and one fits; else the formula itself.
+/// Within 12 ulps, by the quotient of [`Conductor`] where all three colours have one; else
+/// the formula itself.
 pub fn conductor_rgb(isa: Isa, colors: &[Conductor; 3], v_dot_h: &[f32], out: [&mut [f32]; 3]) {
     let [red, green, blue] = out;
     dispatch!(isa, conductor_body(colors: &[Conductor; 3], v_dot_h: &[f32], red: &mut [f32], green: &mut [f32], blue: &mut [f32]))
@@ -105,8 +187,7 @@ fn conductor_body<S: Single>(
         &mut green[..n],
         &mut blue[..n],
     );
-    let metals = colors.map(|color| Metal::<S>::new(&color));
-    let [Some(metal_r), Some(metal_g), Some(metal_b)] = metals else {
+    let [Some(r), Some(g), Some(b)] = colors.map(|color| color.quotient) else {
         for i in 0..n {
             let at = |color: &Conductor| {
                 f_conductor(S::load(color.n), S::load(color.k), S::load(v_dot_h[i])).store()
@@ -115,52 +196,51 @@ fn conductor_body<S: Single>(
         }
         return;
     };
+    let [r, g, b] = [r, g, b].map(|quotient| quotient.map(S::load));
     for i in 0..n {
         let c = S::load(v_dot_h[i]).at_least(lit(0.0)).at_most(lit(1.0));
-        red[i] = metal_r.reflectance(c).store();
-        green[i] = metal_g.reflectance(c).store();
-        blue[i] = metal_b.reflectance(c).store();
+        red[i] = r.at(c).store();
+        green[i] = g.at(c).store();
+        blue[i] = b.at(c).store();
     }
 }
 
-/// A conductor whose polynomial fits.
-#[derive(Clone, Copy)]
-struct Metal<S> {
-    /// Of a in 2 sin²θ − 1.
-    a: [S; COEFFICIENTS],
-    /// k² − n².
-    difference: S,
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-impl<S: Single> Metal<S> {
-    #[inline(always)]
-    fn new(color: &Conductor) -> Option<Metal<S>> {
-        let (n, k) = (f64::from(color.n), f64::from(color.k));
-        color.smooth.map(|smooth| Metal {
-            a: smooth.map(S::load),
-            difference: lit(k * k - n * n),
-        })
+    #[track_caller]
+    fn check(n: f32, k: f32, fits: bool) {
+        assert_eq!(Conductor::new(n, k).quotient.is_some(), fits, "{n} {k}");
     }
 
-    /// F = (R_s + R_s R_p/R_s)/2 as one quotient.
-    #[inline(always)]
-    fn reflectance(&self, c: S) -> S {
-        let one = lit::<S>(1.0);
-        let (c2, s2) = (c * c, (one - c) * (one + c));
-        let x = lit::<S>(2.0).mul_add(s2, -one);
-        let [c0, c1, c2_, c3, c4, c5] = self.a;
-        let a = c5
-            .mul_add(x, c4)
-            .mul_add(x, c3)
-            .mul_add(x, c2_)
-            .mul_add(x, c1)
-            .mul_add(x, c0);
-        let b2 = a.mul_add(a, self.difference + s2);
-        let (minus, plus) = (a - c, a + c);
-        let (n_s, d_s) = (minus.mul_add(minus, b2), plus.mul_add(plus, b2));
-        let (ac, bc2) = (a * c, b2 * c2);
-        let (minus, plus) = (ac - s2, ac + s2);
-        let (n_p, d_p) = (minus.mul_add(minus, bc2), plus.mul_add(plus, bc2));
-        lit::<S>(0.5) * n_s * (d_p + n_p) / (d_s * d_p)
+    #[test]
+    fn a_quotient_fits_metals() {
+        // Silver, gold, copper, aluminium, iron and chromium, red, green and blue.
+        for (n, k) in [
+            (0.155, 4.828),
+            (0.117, 3.122),
+            (0.138, 2.147),
+            (0.143, 3.983),
+            (0.375, 2.386),
+            (1.442, 1.603),
+            (0.2, 3.924),
+            (0.924, 2.447),
+            (1.102, 2.142),
+            (1.346, 7.475),
+            (0.965, 6.4),
+            (0.617, 5.303),
+            (2.911, 3.089),
+            (2.95, 2.932),
+            (2.584, 2.767),
+            (3.18, 3.3),
+        ] {
+            check(n, k, true);
+        }
+        // Nearly a dielectric near its critical angle; and nothing that is a number.
+        check(0.7, 0.01, false);
+        check(f32::NAN, 1.0, false);
+        check(1.0, f32::INFINITY, false);
+        check(0.0, 0.0, false);
     }
 }

@@ -4,7 +4,7 @@ use super::{All, Each, Input, Isa, Source, dispatch, for_kinds};
 use crate::batch::Level;
 use crate::real::{Fused, Single, lit};
 use glam::Vec3;
-use std::f64::consts::FRAC_1_PI;
+use std::f64::consts::{FRAC_1_PI, PI};
 
 /// Arguments of [`specular`]: cosines, widths and colours.
 #[derive(Debug, Clone, Copy)]
@@ -41,9 +41,18 @@ fn specular_body<S: Single>(input: &Cosines, out: &mut [f32]) {
     ]
     .into_iter()
     .fold(out.len(), usize::min);
+    let out = &mut out[..n];
+    if let (Input::All(view), Input::All(alpha)) = (input.n_dot_v, input.alpha)
+        && let Some(known) = Known::<S>::new(view, alpha)
+    {
+        return match input.f0 {
+            None => known_perfect_loop(input, known, out),
+            Some(f0) => for_kinds!(n; f0, f0 => known_loop(input, known, f0, out)),
+        };
+    }
     for_kinds!(n; input.n_dot_v, view => for_kinds!(n; input.alpha, alpha => match input.f0 {
-        None => specular_perfect_loop::<S>(input, view, alpha, &mut out[..n]),
-        Some(f0) => for_kinds!(n; f0, f0 => specular_loop::<S>(input, view, alpha, f0, &mut out[..n])),
+        None => specular_perfect_loop::<S>(input, view, alpha, out),
+        Some(f0) => for_kinds!(n; f0, f0 => specular_loop::<S>(input, view, alpha, f0, out)),
     }))
 }
 
@@ -93,18 +102,93 @@ fn specular_perfect_loop<S: Single>(
     }
 }
 
-/// D V cos θ_l with a single quotient: α²/(2π) l / (t² (l sqrt(…) + v sqrt(…))).
+/// D V cos θ_l with a single quotient: α²/(2π) l / (t² (l sqrt(…) + v sqrt(…))), with
+/// t = α² + (1 − α²) sin²θ_h.
 #[inline(always)]
 fn specular_cos<S: Single>(l: S, v: S, h: S, alpha: S) -> S {
-    let one = lit::<S>(1.0);
     let a2 = alpha * alpha;
-    let ah = alpha * h;
-    let t = ah.mul_add(ah, (one - h) * (one + h));
-    let w = l.mul_add(
-        (v * v).mul_add(one - a2, a2).sqrt(),
-        v * (l * l).mul_add(one - a2, a2).sqrt(),
+    let rest = lit::<S>(1.0) - a2;
+    let t = h.one_minus_square().mul_add(rest, a2);
+    // Below the horizon the numerator is 0.
+    let l = l.at_least(lit(0.0));
+    let root = |x: S| (x * x).mul_add(rest, a2).sqrt();
+    let w = l.mul_add(root(v), v * root(l));
+    above(v, a2 * lit(0.5 * FRAC_1_PI) * l / (t * t * w))
+}
+
+/// What is known of an evaluation whose view and width are.
+#[derive(Clone, Copy)]
+struct Known<S> {
+    /// t of the distribution over sqrt(α²/2π) is `t + t_slope` sin²θ_h.
+    t: S,
+    t_slope: S,
+    /// sqrt(α² + (1 − α²) v²).
+    root: S,
+    /// v² (α² + (1 − α²) l²) is `square + square_slope` l².
+    square: S,
+    square_slope: S,
+}
+
+impl<S: Single> Known<S> {
+    /// `None` where the factors would leave the range of single precision.
+    #[inline(always)]
+    fn new(view: f32, alpha: f32) -> Option<Known<S>> {
+        let (v, a) = (f64::from(view), f64::from(alpha));
+        if !(v > 1e-12 && a > 1e-5 && v < 1e5 && a < 1e5) {
+            return None;
+        }
+        let (a2, rest) = (a * a, (1.0 - a) * (1.0 + a));
+        let scale = (2.0 * PI).sqrt() / a;
+        Some(Known {
+            t: lit(a2 * scale),
+            t_slope: lit(rest * scale),
+            root: lit((a2 + rest * v * v).sqrt()),
+            square: lit(v * v * a2),
+            square_slope: lit(v * v * rest),
+        })
+    }
+
+    /// D V cos θ_l as l / (t² (l sqrt(…) + sqrt(…))).
+    #[inline(always)]
+    fn cos(&self, l: S, h: S) -> S {
+        let t = h.one_minus_square().mul_add(self.t_slope, self.t);
+        let l = l.at_least(lit(0.0));
+        let w = l.mul_add(
+            self.root,
+            (l * l).mul_add(self.square_slope, self.square).sqrt(),
+        );
+        l / (t * t * w)
+    }
+}
+
+#[inline(always)]
+fn known_loop<S: Single>(input: &Cosines, known: Known<S>, f0: impl Source, out: &mut [f32]) {
+    let n = out.len();
+    let (light, h, u) = (
+        &input.n_dot_l[..n],
+        &input.n_dot_h[..n],
+        &input.v_dot_h[..n],
     );
-    on_lit_side(l, v, a2 * lit(0.5 * FRAC_1_PI) * l / (t * t * w))
+    let f0 = f0.cut(n);
+    for i in 0..n {
+        let value = known.cos(S::load(light[i]), S::load(h[i]));
+        out[i] = (value * schlick(f0.at::<S>(i), lit::<S>(1.0) - S::load(u[i]))).store();
+    }
+}
+
+#[inline(always)]
+fn known_perfect_loop<S: Single>(input: &Cosines, known: Known<S>, out: &mut [f32]) {
+    let n = out.len();
+    let (light, h) = (&input.n_dot_l[..n], &input.n_dot_h[..n]);
+    for i in 0..n {
+        out[i] = known.cos(S::load(light[i]), S::load(h[i])).store();
+    }
+}
+
+/// `value`, but 0 where a cosine is not above the horizon.
+#[inline(always)]
+fn above<S: Single>(cosine: S, value: S) -> S {
+    if cosine <= lit(0.0) { lit(0.0) } else { value }
 }
 
 /// `value`, but 0 where a direction is not above the horizon.
