@@ -181,7 +181,7 @@ pub struct Mark {
 #[derive(Debug, Args)]
 pub struct Judge {
     /// Id of the question, for example smith-g2/explain-3
-    #[arg(required_unless_present_any = ["batch", "evaluate"])]
+    #[arg(required_unless_present_any = ["batch", "evaluate", "learn"])]
     pub item: Option<String>,
     /// Print JSON
     #[arg(long)]
@@ -193,6 +193,10 @@ pub struct Judge {
     /// "misconceptions","verdict"}`
     #[arg(long, value_name = "FILE", conflicts_with_all = ["item", "batch"])]
     pub evaluate: Option<PathBuf>,
+    /// Propose phrases from a teacher's marks (JSONL as for --evaluate), and show what each
+    /// gains and costs on answers by other writers
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["item", "batch", "evaluate"])]
+    pub learn: Option<PathBuf>,
     /// With --evaluate: the figures of each writer too
     #[arg(long, requires = "evaluate")]
     pub by_writer: bool,

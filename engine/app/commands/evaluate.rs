@@ -11,12 +11,7 @@ use crate::lessons::Shelf;
 use crate::output;
 
 pub fn run(shelf: &Shelf, path: &Path, args: &Judge) -> Result<Done, Failure> {
-    let (marks, left_out) = read(shelf, path)?;
-    if left_out > 0 {
-        output::complain(&format!(
-            "{left_out} answers are left out: no lesson here asks their questions"
-        ));
-    }
+    let marks = read(shelf, path)?;
     let rows: Vec<Row> = marks
         .iter()
         .filter_map(|marked| {
@@ -60,8 +55,9 @@ pub fn run(shelf: &Shelf, path: &Path, args: &Judge) -> Result<Done, Failure> {
     Ok(Done::Fine)
 }
 
-/// The marks of questions that a lesson asks, and how many others there were.
-fn read(shelf: &Shelf, path: &Path) -> Result<(Vec<Marked>, usize), Failure> {
+/// The marks of questions that a lesson asks; says on standard error how many others there
+/// were.
+pub fn read(shelf: &Shelf, path: &Path) -> Result<Vec<Marked>, Failure> {
     let (mut marks, mut left_out) = (Vec::new(), 0);
     for (index, line) in super::lines_of(path)?.iter().enumerate() {
         if line.trim().is_empty() {
@@ -83,7 +79,12 @@ fn read(shelf: &Shelf, path: &Path) -> Result<(Vec<Marked>, usize), Failure> {
             left_out += 1;
         }
     }
-    Ok((marks, left_out))
+    if left_out > 0 {
+        output::complain(&format!(
+            "{left_out} answers are left out: no lesson here asks their questions"
+        ));
+    }
+    Ok(marks)
 }
 
 fn share(share: Share) -> Value {
@@ -95,7 +96,7 @@ fn share(share: Share) -> Value {
     })
 }
 
-fn figures(all: &Evaluation) -> Value {
+pub fn figures(all: &Evaluation) -> Value {
     let criteria: Vec<Value> = all
         .criteria
         .iter()
@@ -129,7 +130,7 @@ fn figures(all: &Evaluation) -> Value {
     })
 }
 
-fn number(value: Option<f64>) -> String {
+pub fn number(value: Option<f64>) -> String {
     value.map_or_else(|| "none".to_owned(), |value| format!("{value:.3}"))
 }
 

@@ -42,6 +42,9 @@ pub fn run(folders: &Folders, args: &Judge) -> Result<Done, Failure> {
     if let Some(path) = &args.evaluate {
         return super::evaluate::run(&shelf, path, args);
     }
+    if let Some(path) = &args.learn {
+        return super::learn_phrases::run(&shelf, path, args);
+    }
     match (&args.item, &args.batch) {
         (_, Some(path)) => batch(&shelf, path),
         (Some(item), None) => one(&shelf, item, args.json),

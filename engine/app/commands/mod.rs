@@ -8,6 +8,7 @@ mod evaluate;
 mod exercise;
 mod judge;
 mod learn;
+mod learn_phrases;
 mod list;
 mod mark;
 mod progress;

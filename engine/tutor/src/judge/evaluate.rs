@@ -22,12 +22,12 @@ pub struct Marked {
     pub writer: String,
     /// The answer.
     pub text: String,
-    /// Expectations that it meets.
-    #[serde(default)]
-    pub met: Vec<String>,
-    /// Misconceptions that it shows.
-    #[serde(default)]
-    pub misconceptions: Vec<String>,
+    /// Expectations that it meets, where the teacher said which.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub met: Option<Vec<String>>,
+    /// Misconceptions that it shows, where the teacher said which.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub misconceptions: Option<Vec<String>>,
     /// `pass`, `partial` or `fail`.
     pub verdict: String,
     /// Criteria on which two markers disagreed.
@@ -36,6 +36,30 @@ pub struct Marked {
     /// Whether it was written to mislead a judge.
     #[serde(default)]
     pub adversarial: bool,
+}
+
+impl Marked {
+    /// Whether the teacher found that criterion in the answer; where he gave a verdict alone,
+    /// what follows from it, and `None` where nothing does.
+    pub fn says(&self, rubric: &Rubric, id: &str) -> Option<bool> {
+        let listed = |list: &Option<Vec<String>>| {
+            let list = list.as_ref()?;
+            Some(list.iter().any(|said| said == id))
+        };
+        let verdict = Verdict::parse(&self.verdict);
+        if let Some(expectation) = rubric.expectation.iter().find(|e| e.id == id) {
+            return listed(&self.met).or(match verdict {
+                Some(Verdict::Pass) if expectation.required => Some(true),
+                Some(Verdict::Fail) if expectation.required => Some(false),
+                _ => None,
+            });
+        }
+        let misconception = rubric.misconception.iter().find(|m| m.id == id)?;
+        listed(&self.misconceptions).or(match verdict {
+            Some(Verdict::Pass) if misconception.blocking => Some(false),
+            _ => None,
+        })
+    }
 }
 
 /// A marked answer beside what the judge made of it.
@@ -274,13 +298,12 @@ fn criteria(rows: &[Row<'_>]) -> Vec<CriterionFigures> {
                 unsure: 0,
             };
             for row in rows.iter().filter(|row| row.rubric.item == rubric.item) {
-                let (truth, heard) = if is_misconception {
-                    (
-                        row.marked.misconceptions.contains(id),
-                        row.judged.misconceptions.contains(id),
-                    )
-                } else {
-                    (row.marked.met.contains(id), row.judged.met.contains(id))
+                let Some(truth) = row.marked.says(rubric, id) else {
+                    continue;
+                };
+                let heard = match is_misconception {
+                    true => row.judged.misconceptions.contains(id),
+                    false => row.judged.met.contains(id),
                 };
                 if heard {
                     figures.precision.count(truth);

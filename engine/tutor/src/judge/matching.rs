@@ -286,16 +286,41 @@ impl Atom {
         let mut start = 0;
         while start < reading.tokens.len() {
             let (_, end) = sentence_around(reading, start);
-            let score = share(&self.words, &reading.forms[start..end]);
+            let sentence = reading.sentence[start];
+            let score =
+                share(&self.words, &reading.forms[start..end]) * self.named_in(reading, sentence);
             let denied = (start..end)
                 .any(|i| reading.denied[i] && self.words.contains(&reading.forms[i].stem));
             if score >= PERHAPS && denied == self.denied {
                 let range = (reading.tokens[start].start, reading.tokens[end - 1].end);
-                hits.insert(reading.sentence[start], Hit { score, range });
+                hits.insert(sentence, Hit { score, range });
             }
             start = end.max(start + 1);
         }
         hits
+    }
+
+    /// Whether a sentence is about the places and surfaces that the words are said of: hardly
+    /// known where it names none, and not where it names others.
+    fn named_in(&self, reading: &Reading, sentence: usize) -> f64 {
+        let mut score = 1.0;
+        for class in [PLACE, SURFACE, MATERIAL] {
+            if self.about[class].is_empty() {
+                continue;
+            }
+            let mut here = reading
+                .statements
+                .iter()
+                .filter(|s| s.sentence == sentence)
+                .filter_map(|s| s.about[class].as_ref())
+                .peekable();
+            if here.peek().is_none() {
+                score *= 0.7;
+            } else if !here.any(|it| it.concepts.iter().any(|id| self.about[class].contains(id))) {
+                return 0.0;
+            }
+        }
+        score
     }
 }
 

@@ -10,6 +10,7 @@ mod denial;
 pub mod evaluate;
 mod examples;
 mod grammar;
+pub mod learn;
 mod lexicon;
 mod matching;
 mod parse;

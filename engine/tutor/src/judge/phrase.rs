@@ -128,8 +128,17 @@ impl Phrase {
         if atoms.is_empty() {
             let words = literal(&reading, None);
             if !words.is_empty() {
+                // Where the verb is nobody's word, the place that it is said of still counts.
+                let about = std::array::from_fn(|class| {
+                    let named = reading
+                        .statements
+                        .iter()
+                        .filter_map(|s| s.about[class].as_ref());
+                    named.flat_map(|about| about.concepts.clone()).collect()
+                });
                 atoms.push(Atom {
                     words,
+                    about,
                     ..Atom::default()
                 });
             }
