@@ -1,6 +1,6 @@
 //! Drawing lights for one view.
 
-use super::specular::on_lit_side;
+use super::specular::above;
 use super::{Isa, Level, dispatch, sin_cos_turn};
 use crate::real::{Fused, Single, lit};
 use glam::Vec3;
@@ -42,51 +42,118 @@ fn sample_body<S: Single>(v: Vec3, alpha: f32, u: [&[f32]; 2], out: Samples) {
     let [u0, u1] = u.map(|u| &u[..n]);
     let [x, y, z, pdf, weight] = [x, y, z, pdf, weight].map(|out| &mut out[..n]);
     let one = lit::<S>(1.0);
+    let cap = Cap::new(v, alpha);
+    let known = cap.map(lit::<S>);
     let v = v.to_array().map(S::load);
-    let alpha = S::load(alpha);
-    let a2 = alpha * alpha;
-    // Of the view alone: its stretched length, the bound of the cap, density over D.
-    let across = v[0].mul_add(v[0], v[1] * v[1]);
-    let length = v[2].mul_add(v[2], a2 * across).sqrt();
-    let s = one + across.sqrt();
-    let s2 = s * s;
-    let bound = if alpha < one {
-        (one - a2) * s2 / a2.mul_add(v[2] * v[2], s2)
-    } else {
-        lit(0.0)
-    };
-    let share = lit::<S>(0.5) / bound.mul_add(v[2], length);
-    let std = [alpha * v[0] / length, alpha * v[1] / length, v[2] / length];
-    let low = bound * std[2];
     for i in 0..n {
-        let cap = (one - S::load(u1[i])).mul_add(one + low, -low);
-        let sin = ((one - cap) * (one + cap)).at_least(lit(0.0)).sqrt();
+        // How far below the pole of the cap, and how far above its rim, without differences.
+        let (below, rise) = (S::load(u1[i]), one - S::load(u1[i]));
+        let sin2 = (known.depth * below) * rise.mul_add(known.depth, known.rim);
+        let sin = sin2.sqrt();
         let (sin_phi, cos_phi) = sin_cos_turn(S::load(u0[i]));
-        let m = [
-            alpha * sin.mul_add(cos_phi, std[0]),
-            alpha * sin.mul_add(sin_phi, std[1]),
-            std[2] + cap,
+        // The half vector where the surface is stretched to α = 1, without its length: the sum
+        // of two directions.
+        let [x_view, y_view] = known.view;
+        let h = [
+            sin.mul_add(cos_phi, x_view),
+            sin.mul_add(sin_phi, y_view),
+            rise.mul_add(known.depth, known.lowest),
         ];
-        // Mirrored in m without its length.
-        let m_across = m[0].mul_add(m[0], m[1] * m[1]);
-        let m_up = m[2] * m[2];
-        let m2 = m_across + m_up;
-        let vm = v[0].mul_add(m[0], v[1].mul_add(m[1], v[2] * m[2]));
-        let factor = lit::<S>(2.0) * vm / m2;
+        let (across, up) = (h[0].mul_add(h[0], h[1] * h[1]), h[2] * h[2]);
+        // |h|², which is 2 V·M over the stretched view's length, and the square of its length on
+        // the surface: their quotient is in the mirror and in D.
+        let (stretched, squeezed) = (across + up, known.a2.mul_add(across, up));
+        let mirror = stretched / squeezed;
+        let (aside, upward) = (known.aside * mirror, known.upward * mirror);
         let l = [
-            factor.mul_add(m[0], -v[0]),
-            factor.mul_add(m[1], -v[1]),
-            factor.mul_add(m[2], -v[2]),
+            aside.mul_add(h[0], -v[0]),
+            aside.mul_add(h[1], -v[1]),
+            upward.mul_add(h[2], -v[2]),
         ];
-        let q = m2 / a2.mul_add(m_up, m_across);
-        let d = a2 * lit(FRAC_1_PI) * (q * q);
-        let l_across = l[0].mul_add(l[0], l[1] * l[1]);
-        let l_length = l[2].mul_add(l[2], a2 * l_across).sqrt();
-        let w = l[2].mul_add(length, v[2] * l_length);
+        let density = squeezed / stretched;
         x[i] = l[0].store();
         y[i] = l[1].store();
         z[i] = l[2].store();
-        pdf[i] = (d * share).store();
-        weight[i] = on_lit_side(l[2], v[2], lit::<S>(0.5) * l[2] / (w * share)).store();
+        pdf[i] = (density * density * known.density).store();
+    }
+    for i in 0..n {
+        let l = S::load(z[i]);
+        let l_length = (l * l).mul_add(known.rest, known.a2).sqrt();
+        let w = l.mul_add(known.length, known.z * l_length);
+        weight[i] = above(l, l / w).store();
+    }
+}
+
+/// What depends on the view and the width alone.
+#[derive(Clone, Copy)]
+struct Cap<R> {
+    /// From the cap's pole to its rim.
+    depth: R,
+    /// Height of the rim over the sphere's lowest point.
+    rim: R,
+    /// Height of the lowest half vector.
+    lowest: R,
+    /// The stretched view, of length 1, along the tangent and the bitangent.
+    view: [R; 2],
+    /// α² and 1 − α².
+    a2: R,
+    rest: R,
+    /// The stretched view's length times α, and as it is.
+    aside: R,
+    upward: R,
+    /// Density over the square of the quotient of lengths.
+    density: R,
+    /// The factors of the weight's divisor: infinite for a view below the horizon.
+    length: R,
+    z: R,
+}
+
+impl Cap<f64> {
+    #[inline(always)]
+    fn new(v: Vec3, alpha: f32) -> Cap<f64> {
+        let ([x, y, z], a) = (v.to_array().map(f64::from), f64::from(alpha));
+        let (a2, rest) = (a * a, (1.0 - a) * (1.0 + a));
+        let across = x * x + y * y;
+        let length = (z * z + a2 * across).sqrt();
+        let s = 1.0 + across.sqrt();
+        let bound = if alpha < 1.0 {
+            rest * (s * s) / (a2 * (z * z) + s * s)
+        } else {
+            0.0
+        };
+        let low = bound * (z / length);
+        // Density over D.
+        let share = 0.5 / (bound * z + length);
+        let lit = if z > 0.0 { 2.0 * share } else { f64::INFINITY };
+        Cap {
+            depth: 1.0 + low,
+            rim: 1.0 - low,
+            lowest: (1.0 - bound) * (z / length),
+            view: [a * x / length, a * y / length],
+            a2,
+            rest,
+            aside: length * a,
+            upward: length,
+            density: share * FRAC_1_PI / a2,
+            length: length * lit,
+            z: z * lit,
+        }
+    }
+
+    #[inline(always)]
+    fn map<R>(self, f: impl Fn(f64) -> R) -> Cap<R> {
+        Cap {
+            depth: f(self.depth),
+            rim: f(self.rim),
+            lowest: f(self.lowest),
+            view: self.view.map(&f),
+            a2: f(self.a2),
+            rest: f(self.rest),
+            aside: f(self.aside),
+            upward: f(self.upward),
+            density: f(self.density),
+            length: f(self.length),
+            z: f(self.z),
+        }
     }
 }

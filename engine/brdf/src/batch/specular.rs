@@ -187,13 +187,13 @@ fn known_perfect_loop<S: Single>(input: &Cosines, known: Known<S>, out: &mut [f3
 
 /// `value`, but 0 where a cosine is not above the horizon.
 #[inline(always)]
-fn above<S: Single>(cosine: S, value: S) -> S {
+pub(super) fn above<S: Single>(cosine: S, value: S) -> S {
     if cosine <= lit(0.0) { lit(0.0) } else { value }
 }
 
 /// `value`, but 0 where a direction is not above the horizon.
 #[inline(always)]
-pub(super) fn on_lit_side<S: Single>(l: S, v: S, value: S) -> S {
+fn on_lit_side<S: Single>(l: S, v: S, value: S) -> S {
     let lower = if l < v { l } else { v };
     if lower <= lit(0.0) { lit(0.0) } else { value }
 }
