@@ -108,11 +108,14 @@ pub trait Real:
     fn hypot(self, y: Self) -> Self {
         let (a, b) = (self.abs(), y.abs());
         let (large, small) = if b > a { (b, a) } else { (a, b) };
-        if large == Self::of(0.0) {
-            return large;
-        }
         let ratio = small / large;
-        large * (Self::of(1.0) + ratio * ratio).sqrt()
+        let length = large * (Self::of(1.0) + ratio * ratio).sqrt();
+        // Chosen afterwards: a loop without branches works on several points at a time.
+        if large == Self::of(0.0) {
+            large
+        } else {
+            length
+        }
     }
 
     /// The product as an unevaluated sum: rounded product and its rounding error (Dekker).

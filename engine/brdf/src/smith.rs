@@ -33,8 +33,10 @@ pub(crate) const TERMS: &[Term] = &[
 /// `value` of the two cosines, at most 1; 0 where one of them is not above the horizon.
 #[inline(always)]
 pub(crate) fn above_horizon<R: Real>(n_dot_l: R, n_dot_v: R, value: impl FnOnce(R, R) -> R) -> R {
+    // Computed in any case: a loop without branches works on several points at a time.
+    let above = value(n_dot_l.at_most(lit(1.0)), n_dot_v.at_most(lit(1.0)));
     if n_dot_l > lit(0.0) && n_dot_v > lit(0.0) {
-        value(n_dot_l.at_most(lit(1.0)), n_dot_v.at_most(lit(1.0)))
+        above
     } else {
         zero_unless_nan([n_dot_l, n_dot_v])
     }
@@ -62,16 +64,19 @@ fn projected<R: Real>(c: R, alpha: R) -> R {
 /// x/(2 (1 + sqrt(1 + x))), and for large x the same divided by the root.
 #[inline(always)]
 pub fn lambda_ggx<R: Real>(n_dot_x: R, alpha: R) -> R {
-    if n_dot_x <= lit(0.0) {
-        return lit::<R>(1.0) / lit(0.0);
-    }
-    let c = n_dot_x.at_most(lit(1.0));
+    let one = lit::<R>(1.0);
+    let c = n_dot_x.at_most(one);
     let t = (alpha * sine(c)).abs() / c;
-    if t > lit(1.0) {
-        let r = lit::<R>(1.0) / t;
-        lit::<R>(0.5) * t / (r + (lit::<R>(1.0) + r * r).sqrt())
+    // Both forms as one, and the choice last: a loop without branches works on several points
+    // at a time.
+    let steep = t > one;
+    let r = if steep { one / t } else { t };
+    let (above, below) = if steep { (t, r) } else { (t * t, one) };
+    let lambda = lit::<R>(0.5) * above / (below + (one + r * r).sqrt());
+    if n_dot_x <= lit(0.0) {
+        one / lit(0.0)
     } else {
-        lit::<R>(0.5) * (t * t) / (lit::<R>(1.0) + (lit::<R>(1.0) + t * t).sqrt())
+        lambda
     }
 }
 

@@ -1,5 +1,6 @@
 //! The registry: every formula as data, found by its name.
 
+use crate::batch::Isa;
 use std::sync::LazyLock;
 
 /// What an argument of a term means, and where it may lie.
@@ -35,6 +36,12 @@ pub struct Term {
     pub f64: fn(&[f64]) -> f64,
     /// Value computed in single precision throughout; NaN if the number of arguments is wrong.
     pub f32: fn(&[f32]) -> f32,
+    /// The same at many points: a slice for each argument, all as long as the result; what is
+    /// longer is cut. The values are those of `f64` to the last bit. NaN everywhere if the
+    /// number of arguments is wrong.
+    pub f64_block: fn(Isa, &[&[f64]], &mut [f64]),
+    /// The same in single precision throughout.
+    pub f32_block: fn(Isa, &[&[f32]], &mut [f32]),
     /// WGSL twin: one function `lobe_<name>` with the arguments in order; `None` where the
     /// term is a quadrature.
     pub wgsl: Option<&'static str>,
@@ -93,6 +100,14 @@ macro_rules! entry {
                 [$($arg),+] => $name::<f32>($($arg),+),
                 _ => f32::NAN,
             },
+            f64_block: {
+                $crate::term::block!($name::<f64>($($arg),+));
+                each
+            },
+            f32_block: {
+                $crate::term::block!($name::<f32>($($arg),+));
+                each
+            },
             wgsl: $wgsl,
             wgsl_needs: &[$($($need),+)?],
             cost: $cost,
@@ -100,6 +115,41 @@ macro_rules! entry {
     };
 }
 pub(crate) use entry;
+
+/// Makes `each`, which evaluates a function at many points. Where the function's arithmetic is
+/// inlined and free of branches, the loop works on several points at a time; AVX-512 divides and
+/// takes roots no faster than AVX2, so there is no loop for it.
+macro_rules! block {
+    ($name:ident::<$real:ident>($($arg:ident),+)) => {
+        #[inline(always)]
+        fn body(args: &[&[$real]], out: &mut [$real]) {
+            let [$($arg),+] = *args else {
+                return out.fill($real::NAN);
+            };
+            let count = out.len()$(.min($arg.len()))+;
+            $(let $arg = &$arg[..count];)+
+            for (index, out) in out[..count].iter_mut().enumerate() {
+                *out = $name::<$real>($($arg[index]),+);
+            }
+        }
+        #[cfg(target_arch = "x86_64")]
+        #[target_feature(enable = "avx2")]
+        fn avx2(args: &[&[$real]], out: &mut [$real]) {
+            body(args, out);
+        }
+        fn each(isa: $crate::batch::Isa, args: &[&[$real]], out: &mut [$real]) {
+            match isa.level() {
+                $crate::batch::Level::Baseline => body(args, out),
+                // SAFETY: a level is named only where its instructions, AVX2 among them, were found.
+                #[cfg(target_arch = "x86_64")]
+                $crate::batch::Level::Avx2 | $crate::batch::Level::Avx512 => unsafe {
+                    avx2(args, out)
+                },
+            }
+        }
+    };
+}
+pub(crate) use block;
 
 const fn param(
     name: &'static str,

@@ -121,9 +121,16 @@ impl Dag {
 
     /// Which operations the root needs.
     pub fn needed(&self) -> Vec<bool> {
+        self.needed_by(&[self.root])
+    }
+
+    /// Which operations these need.
+    pub fn needed_by(&self, roots: &[Id]) -> Vec<bool> {
         let mut needed = vec![false; self.ops.len()];
-        if let Some(root) = needed.get_mut(self.root) {
-            *root = true;
+        for root in roots {
+            if let Some(root) = needed.get_mut(*root) {
+                *root = true;
+            }
         }
         for id in (0..self.ops.len()).rev() {
             if needed[id] {

@@ -23,16 +23,19 @@
 
 mod algebra;
 mod answer;
+mod block;
 mod builtin;
 mod dag;
 mod digits;
 mod error;
 mod eval;
 mod expr;
+mod lanes;
 mod latex;
 mod lex;
 mod library;
 mod lower;
+mod machine;
 mod mutant;
 mod mutate;
 mod parse;
@@ -40,6 +43,7 @@ mod pretty;
 mod program;
 mod scope;
 mod spelling;
+mod steps;
 mod substitution;
 mod wgsl;
 

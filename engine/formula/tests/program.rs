@@ -2,6 +2,7 @@
 
 mod common;
 
+use brdf::batch::Isa;
 use common::{library, values};
 use formula::{Column, Scratch, parse};
 
@@ -35,10 +36,13 @@ fn check(text: &str) {
     let columns: Vec<Vec<f64>> = (0..NAMES.len())
         .map(|name| points.iter().map(|point| point[name]).collect())
         .collect();
-    let mut scratch = Scratch::new();
     let mut out = vec![0.0; count];
-    // Roughness once as a column and once as one number.
-    for uniform in [false, true] {
+    // Roughness once as a column and once as one number, on every set of instructions.
+    let ways = Isa::available()
+        .into_iter()
+        .flat_map(|isa| [(isa, false), (isa, true)]);
+    for (isa, uniform) in ways {
+        let mut scratch = Scratch::on(isa);
         let mut inputs: Vec<Column<f64>> = columns.iter().map(|c| Column::Varying(c)).collect();
         if uniform {
             inputs[4] = Column::Uniform(0.4);
@@ -61,7 +65,7 @@ fn check(text: &str) {
         .collect();
     let inputs: Vec<Column<f32>> = narrow.iter().map(|c| Column::Varying(c)).collect();
     let mut out = vec![0.0; count];
-    program.eval_block_f32(&inputs, &mut out, &mut scratch);
+    program.eval_block_f32(&inputs, &mut out, &mut Scratch::new());
     for (index, point) in points.iter().enumerate().step_by(97) {
         let rows: Vec<_> = NAMES.iter().copied().zip(point.iter().copied()).collect();
         let value = library.eval_f32(&expr, &values(&rows));
@@ -98,6 +102,40 @@ fn blocks_are_points() {
         "n_dot_h * n_dot_l - n_dot_h * n_dot_l * roughness^2",
     ] {
         check(text);
+    }
+}
+
+/// Several formulas in one program: each gives what it gives alone, whatever they share.
+#[test]
+fn formulas_share_a_program() {
+    let library = library();
+    let texts = [
+        "d_ggx() * visibility() * n_dot_l",
+        "n_dot_v",
+        "d_ggx() * visibility() * n_dot_l / (4 * n_dot_l * n_dot_v)",
+        "roughness / 2",
+        "d_ggx() * visibility() * n_dot_l",
+        "visibility()",
+    ];
+    let exprs = texts.map(|text| parse(text).expect("a formula"));
+    let all: Vec<&formula::Expr> = exprs.iter().collect();
+    let together = library.compile_all(&all, NAMES).expect("a program");
+    let count = 700;
+    let points: Vec<Vec<f64>> = (0..count).map(point).collect();
+    let columns: Vec<Vec<f64>> = (0..NAMES.len())
+        .map(|name| points.iter().map(|point| point[name]).collect())
+        .collect();
+    let mut inputs: Vec<Column<f64>> = columns.iter().map(|c| Column::Varying(c)).collect();
+    inputs[4] = Column::Uniform(0.4);
+    let mut values = vec![vec![0.0; count]; texts.len()];
+    let mut outs: Vec<&mut [f64]> = values.iter_mut().map(|out| &mut out[..]).collect();
+    let mut scratch = Scratch::new();
+    together.eval_blocks_f64(&inputs, &mut outs, &mut scratch);
+    for (expr, values) in exprs.iter().zip(&values) {
+        let alone = library.compile(expr, NAMES).expect("a program");
+        let mut out = vec![0.0; count];
+        alone.eval_block_f64(&inputs, &mut out, &mut scratch);
+        assert_eq!(values, &out, "{expr}");
     }
 }
 

@@ -29,12 +29,15 @@ use crate::real::{Fused, Single};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Isa(pub(crate) Level);
 
-/// An [`Isa`] above the baseline is made only where its features were detected.
+/// What an [`Isa`] has; above the baseline one is made only where its features were detected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Level {
+pub enum Level {
+    /// What every machine of this architecture has.
     Baseline,
+    /// AVX2 and FMA.
     #[cfg(target_arch = "x86_64")]
     Avx2,
+    /// AVX-512 F, VL, DQ and BW, besides AVX2 and FMA.
     #[cfg(target_arch = "x86_64")]
     Avx512,
 }
@@ -68,6 +71,11 @@ impl Isa {
     /// The fastest that this machine has.
     pub fn best() -> Isa {
         Isa::available().pop().unwrap_or(Isa::BASELINE)
+    }
+
+    /// Which instructions it stands for: this machine has them.
+    pub fn level(self) -> Level {
+        self.0
     }
 
     /// `baseline`, `avx2` or `avx512`.
