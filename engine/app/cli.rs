@@ -46,6 +46,10 @@ pub enum Command {
     Mark(Mark),
     /// Judge an explanation read from standard input
     Judge(Judge),
+    /// Go through a class's unsure and disputed explanations, one key an answer
+    Review(Review),
+    /// Judge a class's logs with today's judge, and show every verdict that changed
+    Regrade(Regrade),
     /// Check everything a lesson file can get wrong
     Check(Check),
     /// Draw fingerprints and plots to files
@@ -200,6 +204,47 @@ pub struct Judge {
     /// With --evaluate: the figures of each writer too
     #[arg(long, requires = "evaluate")]
     pub by_writer: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct Review {
+    /// Folder of a class's logs: a folder for each learner, or the logs themselves
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
+    /// Answers to this question only, for example smith-g2/explain-3
+    #[arg(long, value_name = "ITEM")]
+    pub item: Option<String>,
+    /// Every answer, not only unsure and disputed ones
+    #[arg(long)]
+    pub all: bool,
+    /// Answers that are marked already, too
+    #[arg(long)]
+    pub again: bool,
+    /// List what waits, and mark nothing
+    #[arg(long, conflicts_with = "plain")]
+    pub list: bool,
+    /// With --list: print JSON, one object a line
+    #[arg(long, requires = "list")]
+    pub json: bool,
+    /// Linear text on standard input and output
+    #[arg(long)]
+    pub plain: bool,
+    /// Print the marks made so far as examples for the lesson files
+    #[arg(long, conflicts_with_all = ["list", "plain", "all", "again"])]
+    pub examples: bool,
+    /// With --examples: put them into the lesson files
+    #[arg(long, requires = "examples")]
+    pub write: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct Regrade {
+    /// Folder of a class's logs: a folder for each learner, or the logs themselves
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
+    /// Print JSON, one object a changed verdict
+    #[arg(long)]
+    pub json: bool,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]

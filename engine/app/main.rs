@@ -4,6 +4,7 @@
 //! messages, effects are carried out, and results are printed. Nothing here computes a
 //! number that a learner sees.
 
+mod class;
 mod cli;
 mod commands;
 mod exit;
@@ -11,6 +12,7 @@ mod fingerprints;
 mod lessons;
 mod output;
 mod plain;
+mod sheet;
 mod sitting;
 mod store;
 mod text;

@@ -369,7 +369,7 @@ fn write_until_closed(
 }
 
 /// Puts `text` in the place of the file at `path`: all of it, or nothing.
-fn replace(path: &Path, text: &str) -> io::Result<()> {
+pub fn replace(path: &Path, text: &str) -> io::Result<()> {
     let folder = path.parent().unwrap_or(Path::new("."));
     fs::create_dir_all(folder)?;
     let temporary = beside(path, "tmp");

@@ -12,7 +12,9 @@ mod learn_phrases;
 mod list;
 mod mark;
 mod progress;
+mod regrade;
 mod render;
+mod review;
 mod stress;
 mod transcript;
 
@@ -40,6 +42,8 @@ pub fn run(cli: Cli) -> Result<Done, Failure> {
         Some(Command::Exercise(args)) => exercise::run(folders, &args),
         Some(Command::Mark(args)) => mark::run(folders, &args),
         Some(Command::Judge(args)) => judge::run(folders, &args),
+        Some(Command::Review(args)) => review::run(folders, &args),
+        Some(Command::Regrade(args)) => regrade::run(folders, &args),
         Some(Command::Check(args)) => check::run(folders, &args),
         Some(Command::Render(args)) => render::run(folders, &args),
         Some(Command::Bench(args)) => bench::run(&args),

@@ -11,6 +11,7 @@ pub mod lesson;
 pub mod picker;
 pub mod pictures;
 pub mod probe;
+pub mod review;
 
 use std::io::stdout;
 use std::sync::Arc;

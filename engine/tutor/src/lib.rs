@@ -5,6 +5,7 @@
 //! is random but what a seed decides. A lesson comes in as text and leaves as blocks to draw.
 
 pub mod check;
+pub mod class;
 pub mod exercise;
 pub mod finding;
 pub mod judge;
@@ -13,6 +14,7 @@ pub mod load;
 pub mod plot;
 pub mod prose;
 pub mod record;
+pub mod review;
 pub mod rubric;
 pub mod session;
 pub mod table;
