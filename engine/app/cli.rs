@@ -291,6 +291,12 @@ pub struct Render {
     /// Draw again what is already there
     #[arg(long)]
     pub force: bool,
+    /// Compute everything, needed or not: the same picture, slower
+    #[arg(long)]
+    pub no_skip: bool,
+    /// Say for each picture what was left out, and why
+    #[arg(long)]
+    pub explain: bool,
     /// Print one JSON object a picture
     #[arg(long)]
     pub json: bool,

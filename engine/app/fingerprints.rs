@@ -1,7 +1,8 @@
 //! A lesson's fingerprint as `renders` wants it, and its profile in numbers.
 
-use renders::{Fingerprint, Scene};
+use renders::{Eye, Fingerprint, Light, RADIUS, Scene, Visibility};
 use tutor::Lesson;
+use tutor::lesson::SceneLight;
 use tutor::prose::{Block, Inline, TableView, plain};
 
 use crate::text;
@@ -12,13 +13,6 @@ pub fn fingerprint<'a>(lesson: &'a Lesson, id: &'a str) -> Option<Fingerprint<'a
         .fingerprints
         .iter()
         .find(|entry| entry.id.text == id)?;
-    let mut others = tutor::lesson::values(&entry.scene);
-    let mut take = |name: &str, otherwise: f64| others.remove(name).unwrap_or(otherwise);
-    let (roughness, f0, light_deg) = (
-        take("roughness", 0.5),
-        take("f0", 0.04),
-        take("light_deg", 60.0),
-    );
     let (title, caption) = match lesson.picture(id) {
         Some(Block::Picture { title, caption, .. }) => (title, plain(&caption)),
         _ => (entry.title.text.clone(), String::new()),
@@ -31,11 +25,49 @@ pub fn fingerprint<'a>(lesson: &'a Lesson, id: &'a str) -> Option<Fingerprint<'a
         library: &lesson.library,
         right: &entry.right.expr,
         wrong: &entry.wrong.expr,
-        scene: Scene {
-            others,
-            ..Scene::new(roughness, f0, light_deg)
-        },
+        scene: scene(entry),
     })
+}
+
+/// A figure of a picture by the name that lessons and `lobe render --json` call it.
+pub fn figure(seen: &Visibility, name: &str) -> Option<f64> {
+    Some(match name {
+        "lit_above_one" => seen.lit_above_one,
+        "disc_above_one" => seen.disc_above_one,
+        "ratio_at_highlight" => seen.ratio_at_highlight,
+        "rim_over_highlight_wrong" => seen.rim_over_highlight.0,
+        "rim_over_highlight_right" => seen.rim_over_highlight.1,
+        "terminator_step" => seen.terminator_step,
+        "brighter_by_8" => seen.changed_8.0,
+        "dimmer_by_8" => seen.changed_8.1,
+        _ => return None,
+    })
+}
+
+fn scene(entry: &tutor::lesson::Fingerprint) -> Scene {
+    let mut others = tutor::lesson::values(&entry.scene);
+    let mut take = |name: &str| others.remove(name);
+    let (roughness, f0) = (take("roughness"), take("f0"));
+    let only = Light::distant(take("light_deg").unwrap_or(60.0));
+    let (eye, radius) = (take("eye_distance"), take("radius"));
+    let light = |light: &SceneLight| Light {
+        deg: light.deg,
+        turn_deg: light.turn_deg,
+        distance: light.distance,
+        intensity: light.intensity,
+        colour: light.colour,
+    };
+    Scene {
+        roughness: roughness.unwrap_or(0.5),
+        f0: f0.unwrap_or(0.04),
+        eye: eye.map_or(Eye::Orthographic, |distance| Eye::Perspective { distance }),
+        lights: match entry.lights.as_slice() {
+            [] => vec![only],
+            lights => lights.iter().map(light).collect(),
+        },
+        radius: radius.unwrap_or(RADIUS),
+        others,
+    }
 }
 
 /// What the picture shows along the equator of the sphere, for those who do not see it.
@@ -75,4 +107,55 @@ pub fn profile_table(lesson: &Lesson, id: &str) -> Option<TableView> {
         rows,
         note: vec![Inline::Text(note.to_owned())],
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lessons::Shelf;
+    use renders::{Backend, Options, Raw};
+
+    fn values(fingerprint: &Fingerprint, skip: bool) -> Raw {
+        let options = Options {
+            size: 96,
+            backend: Backend::Cpu,
+            skip,
+            ..Options::default()
+        };
+        renders::raw(fingerprint, &options).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    /// Of every picture of every lesson: what is skipped changes no bit of the right values,
+    /// and of the wrong ones at most 8 ulp, where something cancels.
+    #[test]
+    fn what_is_skipped_changes_nothing_in_any_lesson() {
+        let shelf = Shelf::open(None).expect("lessons");
+        let mut compared = 0;
+        for lesson in shelf.lessons() {
+            for entry in &lesson.fingerprints {
+                let fingerprint = fingerprint(lesson, &entry.id).expect("a fingerprint");
+                let (skipping, all) = (values(&fingerprint, true), values(&fingerprint, false));
+                let cancels = lesson
+                    .library
+                    .ratio(&entry.right.expr, &entry.wrong.expr)
+                    .is_some();
+                let scene = &fingerprint.scene;
+                let drops_out = scene.roughness == 1.0 || scene.f0 == 1.0;
+                let limits = [
+                    if drops_out { 8 } else { 0 },
+                    if drops_out || cancels { 8 } else { 0 },
+                ];
+                let pairs = [(&skipping.right, &all.right), (&skipping.wrong, &all.wrong)];
+                for ((some, all), limit) in pairs.into_iter().zip(limits) {
+                    assert!(some.iter().any(|value| *value > 0.0), "{}", entry.id);
+                    for (index, (a, b)) in some.iter().zip(all).enumerate() {
+                        let apart = a.to_bits().abs_diff(b.to_bits());
+                        assert!(apart <= limit, "{}, pixel {index}: {a} and {b}", entry.id);
+                    }
+                    compared += some.len();
+                }
+            }
+        }
+        assert!(compared > 0, "no lesson has a picture");
+    }
 }

@@ -2,10 +2,10 @@
 
 use crate::Fingerprint;
 use crate::error::Error;
-use crate::plan::{Plan, program};
+use crate::plan::{Plan, program, settled};
 use crate::sample::{Input, Samples};
 use crate::shade::Values;
-use formula::{Column, Program, Scratch};
+use formula::{Column, Expr, Program, Scratch};
 use std::cell::RefCell;
 
 /// Points evaluated at once: some dozens of columns of this length fit in a core's cache.
@@ -33,8 +33,12 @@ enum Second {
 impl Cpu {
     pub fn new(fingerprint: &Fingerprint<'_>, plan: &Plan) -> Result<Self, Error> {
         fingerprint.scene.check()?;
-        let compile = |which, expr| {
-            program(fingerprint, expr).map_err(|error| Error::Formula { which, error })
+        let compile = |which, expr: &Expr| {
+            let expr = match plan.fold {
+                true => settled(fingerprint, expr),
+                false => expr.clone(),
+            };
+            program(fingerprint, &expr).map_err(|error| Error::Formula { which, error })
         };
         let right = compile("right", fingerprint.right)?;
         let wrong = compile("wrong", fingerprint.wrong)?;

@@ -86,6 +86,13 @@ impl Plan {
             true => "pixels that are outside the sphere are not shaded, and for each light those that it does not reach"
                 .to_owned(),
         });
+        if self.lights.is_empty() {
+            self.explain.push(
+                "nothing is lit: no formula is evaluated, and no graphics processor is started"
+                    .to_owned(),
+            );
+            return;
+        }
         self.mirror = self
             .lights
             .iter()
@@ -152,8 +159,8 @@ impl Plan {
             ..
         } = fingerprint;
         let second = self.ratio.as_ref().unwrap_or(wrong);
-        let mut needed = library.needs(right);
-        needed.append(&mut library.needs(second));
+        let mut needed = library.needs(&settled(fingerprint, right));
+        needed.append(&mut library.needs(&settled(fingerprint, second)));
         let same = fingerprint.scene.same();
         for (index, name) in VARYING.iter().enumerate() {
             let needed = needed.contains(*name);
@@ -199,14 +206,21 @@ pub(crate) fn program(
 /// The formula with its constant calls evaluated: a shader then holds their values, as the CPU's
 /// program computes them once a block.
 pub(crate) fn folded(fingerprint: &Fingerprint<'_>, expr: &Expr) -> Expr {
-    let mut values: formula::Values = fingerprint.scene.constants().into_iter().collect();
     let same = fingerprint.scene.same().everywhere;
-    for (index, value) in of_main_light(fingerprint) {
-        if same[index] {
-            values.insert(VARYING[index].to_owned(), value);
-        }
-    }
-    fold(fingerprint, expr, &values, &same)
+    fold(fingerprint, expr, &|call| {
+        constant(fingerprint, call, &same)
+    })
+}
+
+/// The formula with those calls evaluated that take in what varies and do not depend on it, as D
+/// does not at roughness 1.
+pub(crate) fn settled(fingerprint: &Fingerprint<'_>, expr: &Expr) -> Expr {
+    let drops_out = |call: &Expr| {
+        let takes_in = fingerprint.library.needs(call);
+        VARYING.iter().any(|name| takes_in.contains(*name))
+            && constant(fingerprint, call, &[false; VARYING.len()])
+    };
+    fold(fingerprint, expr, &drops_out)
 }
 
 /// The values of those of [`VARYING`] that may be the same everywhere.
@@ -220,19 +234,15 @@ pub(crate) fn of_main_light(fingerprint: &Fingerprint<'_>) -> [(usize, f64); 3] 
     ]
 }
 
-fn fold(
-    fingerprint: &Fingerprint<'_>,
-    expr: &Expr,
-    values: &formula::Values,
-    same: &[bool; VARYING.len()],
-) -> Expr {
-    let inner = |expr: &Expr| Box::new(fold(fingerprint, expr, values, same));
+/// The formula with the values of some of its calls.
+fn fold(fingerprint: &Fingerprint<'_>, expr: &Expr, known: &dyn Fn(&Expr) -> bool) -> Expr {
+    let inner = |expr: &Expr| Box::new(fold(fingerprint, expr, known));
     let node = match &expr.node {
         Node::Number { .. } | Node::Name(_) => return expr.clone(),
         Node::Call { .. } => {
             // A call that has no value, or varies, stays what it is.
-            let value = match constant(fingerprint, expr, same) {
-                true => fingerprint.library.eval(expr, values).ok(),
+            let value = match known(expr) {
+                true => fingerprint.library.eval(expr, &values(fingerprint)).ok(),
                 false => None,
             };
             return value
@@ -257,10 +267,26 @@ fn fold(
     }
 }
 
+/// What a constant call is computed from: what varies may have any value there.
+fn values(fingerprint: &Fingerprint<'_>) -> formula::Values {
+    let anything = VARYING.iter().map(|name| ((*name).to_owned(), 0.5));
+    let mut values: formula::Values = anything.collect();
+    values.extend(fingerprint.scene.constants());
+    for (index, value) in of_main_light(fingerprint) {
+        values.insert(VARYING[index].to_owned(), value);
+    }
+    values
+}
+
 /// Whether a formula has one value wherever `same` of [`VARYING`] have one.
 fn constant(fingerprint: &Fingerprint<'_>, expr: &Expr, same: &[bool; VARYING.len()]) -> bool {
-    !fingerprint.library.needs(expr).iter().any(|name| {
-        let place = VARYING.iter().position(|varying| varying == name);
-        place.is_some_and(|index| !same[index])
-    })
+    let known = fingerprint.scene.constants().into_iter().collect();
+    !fingerprint
+        .library
+        .depends(expr, &known)
+        .iter()
+        .any(|name| {
+            let place = VARYING.iter().position(|varying| varying == name);
+            place.is_some_and(|index| !same[index])
+        })
 }

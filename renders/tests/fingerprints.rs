@@ -2,8 +2,8 @@
 
 use formula::{Expr, Library};
 use renders::{
-    Backend, Error, Fingerprint, Options, RADIUS, Scene, convergence, point_at, profile, raw,
-    render,
+    Backend, Error, Eye, Fingerprint, Light, Options, RADIUS, Scene, convergence, point_at,
+    profile, raw, render,
 };
 use std::sync::atomic::AtomicBool;
 
@@ -209,10 +209,10 @@ fn raw_values_are_the_formula_at_the_pixels_centre() {
     assert_eq!(raw.right[0], 0.0, "nothing is outside the sphere");
 }
 
-/// Skipped pixels, lens and mirror change no bit; cancelled terms change at most 8 ulp.
+/// Skipped pixels, lens and mirror change no bit; skipped terms change at most so many ulp of the
+/// right and of the wrong values.
 #[track_caller]
-fn check_skipping(wrong: &str, size: u32, light_deg: f64, ulps: u64) {
-    let bug = bug(CORRECT, wrong, 0.4, 0.9, light_deg);
+fn check_skipping(bug: &Bug, size: u32, ulps: (u64, u64)) {
     let skipping = raw(&bug.fingerprint(), &cpu(size)).expect("values");
     let all = raw(
         &bug.fingerprint(),
@@ -223,6 +223,7 @@ fn check_skipping(wrong: &str, size: u32, light_deg: f64, ulps: u64) {
     )
     .expect("values");
     let apart = |a: &[f64], b: &[f64]| {
+        assert_eq!(a.len(), b.len());
         // Radiance is never negative: its bits are in its order.
         let distances = a
             .iter()
@@ -230,19 +231,142 @@ fn check_skipping(wrong: &str, size: u32, light_deg: f64, ulps: u64) {
             .map(|(a, b)| a.to_bits().abs_diff(b.to_bits()));
         distances.max().unwrap_or(0)
     };
-    assert_eq!(apart(&skipping.right, &all.right), 0, "right");
-    let distance = apart(&skipping.wrong, &all.wrong);
-    assert!(distance <= ulps, "wrong: {distance} ulps apart");
+    assert!(
+        skipping.right.iter().any(|value| *value > 0.0),
+        "all is black"
+    );
+    let right = apart(&skipping.right, &all.right);
+    assert!(right <= ulps.0, "right: {right} ulps apart");
+    let wrong = apart(&skipping.wrong, &all.wrong);
+    assert!(wrong <= ulps.1, "wrong: {wrong} ulps apart");
 }
 
 #[test]
 fn what_is_skipped_changes_nothing() {
-    check_skipping(DIVIDED_TWICE, 64, 60.0, 8);
-    check_skipping(DIVIDED_TWICE, 65, 0.0, 8);
-    check_skipping(DIVIDED_TWICE, 48, 140.0, 8);
+    let at = |wrong, light_deg| bug(CORRECT, wrong, 0.4, 0.9, light_deg);
+    check_skipping(&at(DIVIDED_TWICE, 60.0), 64, (0, 8));
+    check_skipping(&at(DIVIDED_TWICE, 0.0), 65, (0, 8));
+    check_skipping(&at(DIVIDED_TWICE, 140.0), 48, (0, 8));
     // Nothing cancels here.
-    check_skipping("d_ggx(alpha = roughness) * n_dot_l", 65, 60.0, 0);
-    check_skipping("1 - n_dot_v", 64, 100.0, 0);
+    check_skipping(&at("d_ggx(alpha = roughness) * n_dot_l", 60.0), 65, (0, 0));
+    check_skipping(&at("1 - n_dot_v", 100.0), 64, (0, 0));
+    // D and F are constants.
+    let wrong = "d_ggx() * v_ggx() * f_schlick() * n_dot_l * n_dot_l";
+    check_skipping(&bug(CORRECT, wrong, 1.0, 1.0, 60.0), 64, (8, 8));
+}
+
+/// Scenes beyond one distant light seen from afar.
+fn scenes() -> Vec<Scene> {
+    let light = |deg, turn_deg, distance, colour| Light {
+        turn_deg,
+        distance,
+        colour,
+        ..Light::distant(deg)
+    };
+    let white = [1.0; 3];
+    let one = Scene::new(0.4, 0.3, 60.0);
+    let with = |eye, lights| Scene {
+        eye,
+        lights,
+        ..one.clone()
+    };
+    let near = Eye::Perspective { distance: 3.0 };
+    vec![
+        with(near, vec![Light::distant(60.0)]),
+        with(near, vec![light(110.0, 0.0, None, white)]),
+        with(Eye::Orthographic, vec![light(60.0, 0.0, Some(2.5), white)]),
+        with(near, vec![light(30.0, 70.0, Some(1.5), [1.0, 0.5, 0.25])]),
+        with(Eye::Orthographic, vec![light(120.0, 90.0, None, white)]),
+        with(
+            Eye::Orthographic,
+            vec![
+                Light::distant(20.0),
+                light(80.0, 180.0, None, white),
+                light(100.0, 0.0, None, [0.2, 0.4, 0.6]),
+            ],
+        ),
+        with(
+            near,
+            vec![
+                Light::distant(45.0),
+                light(130.0, 200.0, Some(4.0), [2.0, 0.0, 0.0]),
+                // Behind the sphere, and dark: neither is seen.
+                light(175.0, 0.0, Some(1.2), white),
+                light(10.0, 0.0, None, [0.0; 3]),
+            ],
+        ),
+    ]
+}
+
+#[test]
+fn what_is_skipped_changes_nothing_in_any_scene() {
+    for scene in scenes() {
+        for (wrong, ulps) in [
+            (DIVIDED_TWICE, (0, 8)),
+            (
+                "d_ggx() * v_ggx() * f_schlick(v_dot_h = n_dot_v) * n_dot_l",
+                (0, 8),
+            ),
+            (
+                "diffuse_oren_nayar(albedo = 0.5, sigma = 0.4) * n_dot_l",
+                (0, 0),
+            ),
+        ] {
+            let mut bug = bug(CORRECT, wrong, 0.4, 0.3, 60.0);
+            bug.scene = Scene {
+                radius: 0.8,
+                ..scene.clone()
+            };
+            check_skipping(&bug, 57, ulps);
+            check_skipping(&bug, 40, ulps);
+        }
+    }
+}
+
+/// Every sum of several lights is what the lights give one by one.
+#[test]
+fn lights_add_up() {
+    let scene = scenes()[5].clone();
+    let mut all = bug(CORRECT, DIVIDED_TWICE, 0.4, 0.3, 60.0);
+    all.scene = scene.clone();
+    let sum = raw(&all.fingerprint(), &cpu(48)).expect("values");
+    let mut expected = vec![0.0; sum.right.len()];
+    for light in &scene.lights {
+        let mut one = bug(CORRECT, DIVIDED_TWICE, 0.4, 0.3, 60.0);
+        one.scene.lights = vec![Light {
+            colour: [1.0; 3],
+            ..*light
+        }];
+        let alone = raw(&one.fingerprint(), &cpu(48)).expect("values");
+        for (pixel, value) in alone.right.iter().enumerate() {
+            for (channel, weight) in light.colour.iter().enumerate() {
+                expected[3 * pixel + channel] += weight * value;
+            }
+        }
+    }
+    for (index, (found, expected)) in sum.right.iter().zip(&expected).enumerate() {
+        assert!(
+            (found - expected).abs() <= 1e-12 * expected.abs(),
+            "{index}: {found}, {expected}"
+        );
+    }
+}
+
+/// A distant eye and a distant light are the limits of near ones.
+#[test]
+fn far_is_the_limit_of_near() {
+    let mut far = bug(CORRECT, DIVIDED_TWICE, 0.5, 0.3, 60.0);
+    let expected = raw(&far.fingerprint(), &cpu(48)).expect("values");
+    far.scene.eye = Eye::Perspective { distance: 1e7 };
+    far.scene.lights[0].distance = Some(1e7);
+    let found = raw(&far.fingerprint(), &cpu(48)).expect("values");
+    let brightest = expected.right.iter().fold(0.0_f64, |a, &b| a.max(b));
+    for (found, expected) in found.right.iter().zip(&expected.right) {
+        assert!(
+            (found - expected).abs() < 1e-5 * brightest,
+            "{found}, {expected}"
+        );
+    }
 }
 
 #[test]
@@ -269,6 +393,62 @@ fn the_plan_says_what_cancels_and_what_is_constant() {
         .picture(&options)
         .report;
     assert_eq!((report.pixels_skipped, report.terms_skipped.len()), (0, 0));
+}
+
+/// What the report of a scene says.
+#[track_caller]
+fn check_explained(scene: Scene, says: &[&str], not: &[&str]) {
+    let mut bug = bug(CORRECT, DIVIDED_TWICE, 0.4, 0.3, 60.0);
+    bug.scene = scene;
+    let report = bug.picture(&cpu(32)).report;
+    let text = report.explain.join("\n");
+    for part in says {
+        assert!(text.contains(part), "{part:?} is missing in\n{text}");
+    }
+    for part in not {
+        assert!(!text.contains(part), "{part:?} is in\n{text}");
+    }
+}
+
+#[test]
+fn the_plan_knows_what_varies_in_a_scene() {
+    let scenes = scenes();
+    let constant = "f_schlick(): the same over the whole picture";
+    let mirrors = "the lower half is copied";
+    // V·H varies with a near eye or a near light.
+    check_explained(scenes[0].clone(), &[mirrors], &[constant]);
+    check_explained(scenes[2].clone(), &[mirrors], &[constant]);
+    check_explained(scenes[3].clone(), &[], &[mirrors, constant]);
+    check_explained(scenes[4].clone(), &[constant, "evaluated once"], &[mirrors]);
+    check_explained(scenes[5].clone(), &[mirrors, "under each light"], &[]);
+    check_explained(
+        scenes[6].clone(),
+        &[
+            "light 3 is not shaded: it stands behind",
+            "light 4 is not shaded: it gives no light",
+        ],
+        &["nothing is lit"],
+    );
+    let full = Scene {
+        roughness: 1.0,
+        f0: 1.0,
+        ..scenes[0].clone()
+    };
+    check_explained(full, &["d_ggx(): the same", constant], &[]);
+    let dark = Scene {
+        lights: scenes[6].lights[2..].to_vec(),
+        ..scenes[0].clone()
+    };
+    check_explained(dark.clone(), &["nothing is lit"], &[]);
+    // So there is nothing to ask a graphics processor for.
+    let mut unlit = bug(CORRECT, DIVIDED_TWICE, 0.4, 0.3, 60.0);
+    unlit.scene = dark;
+    let options = Options {
+        backend: Backend::Gpu,
+        ..cpu(32)
+    };
+    let report = unlit.picture(&options).report;
+    assert_eq!((report.backend, report.points), ("cpu", 0));
 }
 
 #[test]

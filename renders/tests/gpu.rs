@@ -2,7 +2,7 @@
 //! skipped; with LOBE_REQUIRE_GPU=1 they fail instead.
 
 use formula::Library;
-use renders::{Backend, Error, Fingerprint, Options, Scene, gpu_adapter, raw, render};
+use renders::{Backend, Error, Eye, Fingerprint, Light, Options, Scene, gpu_adapter, raw, render};
 use std::sync::atomic::AtomicBool;
 
 fn adapter() -> bool {
@@ -19,7 +19,7 @@ fn adapter() -> bool {
 
 /// Both backends on one wrong formula: relative difference where a value is not tiny.
 #[track_caller]
-fn check_agreement(wrong: &str, roughness: f64, light_deg: f64) {
+fn check_agreement(wrong: &str, scene: Scene) {
     let mut library = Library::new();
     library
         .define("s", &["c", "alpha"], "sqrt(alpha^2 + (1 - alpha^2) * c^2)")
@@ -41,7 +41,7 @@ fn check_agreement(wrong: &str, roughness: f64, light_deg: f64) {
         library: &library,
         right: &right,
         wrong: &wrong,
-        scene: Scene::new(roughness, 0.9, light_deg),
+        scene,
     };
     let options = |backend| Options {
         size: 96,
@@ -74,17 +74,38 @@ fn both_backends_agree() {
         return;
     }
     let divided_twice = "d_ggx() * visibility() * f_schlick() * n_dot_l / (4 * n_dot_l * n_dot_v)";
-    check_agreement(divided_twice, 0.7, 60.0);
-    check_agreement(divided_twice, 0.2, 30.0);
+    let one = |roughness, light_deg| Scene::new(roughness, 0.9, light_deg);
+    check_agreement(divided_twice, one(0.7, 60.0));
+    check_agreement(divided_twice, one(0.2, 30.0));
+    let lights = |lights| Scene {
+        lights,
+        ..one(0.5, 0.0)
+    };
+    let coloured = Light {
+        turn_deg: 200.0,
+        distance: Some(2.0),
+        colour: [1.0, 0.5, 0.2],
+        ..Light::distant(70.0)
+    };
+    check_agreement(
+        divided_twice,
+        lights(vec![Light::distant(60.0), Light::distant(20.0)]),
+    );
+    check_agreement(divided_twice, lights(vec![coloured, Light::distant(100.0)]));
+    check_agreement(
+        "d_ggx() * v_ggx() * diffuse_oren_nayar(albedo = 0.5, sigma = 0.5) * n_dot_l",
+        Scene {
+            eye: Eye::Perspective { distance: 2.5 },
+            ..lights(vec![coloured])
+        },
+    );
     check_agreement(
         "d_ggx(alpha = roughness) * v_ggx(alpha = roughness) * f_schlick() * n_dot_l",
-        0.4,
-        60.0,
+        one(0.4, 60.0),
     );
     check_agreement(
         "d_ggx() * v_ggx() * f_schlick(v_dot_h = n_dot_v) * n_dot_l",
-        0.5,
-        100.0,
+        one(0.5, 100.0),
     );
 }
 

@@ -14,7 +14,7 @@ use tutor::prose::{Block, PlotView};
 
 use crate::cli::{Backend, Folders, Render};
 use crate::exit::{Done, Failure};
-use crate::fingerprints::fingerprint;
+use crate::fingerprints::{figure, fingerprint};
 use crate::output;
 
 /// Width and height of a plot's file.
@@ -30,8 +30,11 @@ struct Report {
     adapter: Option<String>,
     pixels_shaded: u64,
     pixels_skipped: u64,
+    points: u64,
     terms_evaluated: Vec<String>,
     terms_skipped: Vec<String>,
+    /// Every decision about what to leave out, as a sentence.
+    explain: Vec<String>,
     cache_hit: bool,
     ms: f64,
     visibility: Option<Visibility>,
@@ -50,6 +53,22 @@ struct Visibility {
     dimmer_by_8: Option<f64>,
 }
 
+impl Visibility {
+    fn of(seen: &renders::Visibility) -> Self {
+        let number = |name| figure(seen, name).filter(|number| number.is_finite());
+        Self {
+            lit_above_one: number("lit_above_one"),
+            disc_above_one: number("disc_above_one"),
+            ratio_at_highlight: number("ratio_at_highlight"),
+            rim_over_highlight_wrong: number("rim_over_highlight_wrong"),
+            rim_over_highlight_right: number("rim_over_highlight_right"),
+            terminator_step: number("terminator_step"),
+            brighter_by_8: number("brighter_by_8"),
+            dimmer_by_8: number("dimmer_by_8"),
+        }
+    }
+}
+
 pub fn run(folders: &Folders, args: &Render) -> Result<Done, Failure> {
     let shelf = super::shelf(folders)?;
     let lessons: Vec<&Arc<Lesson>> = if args.names.is_empty() {
@@ -65,13 +84,13 @@ pub fn run(folders: &Folders, args: &Render) -> Result<Done, Failure> {
     for lesson in lessons {
         for entry in &lesson.fingerprints {
             if let Some(fingerprint) = fingerprint(lesson, &entry.id) {
-                say(&draw(&fingerprint, args, &out)?, args.json)?;
+                say(&draw(&fingerprint, args, &out)?, args)?;
             }
         }
         for entry in &lesson.plots {
             if let Some(Block::Plot(view)) = lesson.plot(&entry.id) {
                 for report in draw_plot(lesson, &view, &out)? {
-                    say(&report, args.json)?;
+                    say(&report, args)?;
                 }
             }
         }
@@ -88,8 +107,8 @@ fn out_folder(wanted: Option<&Path>) -> PathBuf {
     }
 }
 
-fn say(report: &Report, as_json: bool) -> Result<(), Failure> {
-    if as_json {
+fn say(report: &Report, args: &Render) -> Result<(), Failure> {
+    if args.json {
         return output::json(report);
     }
     let by = match (&report.adapter, report.cache_hit) {
@@ -97,7 +116,22 @@ fn say(report: &Report, as_json: bool) -> Result<(), Failure> {
         (Some(adapter), false) => format!("{}, {adapter}", report.backend),
         (None, false) => report.backend.clone(),
     };
-    output::line(&format!("{}  {by}  {:.0} ms", report.file, report.ms))
+    output::line(&format!("{}  {by}  {:.0} ms", report.file, report.ms))?;
+    if args.explain && !report.explain.is_empty() {
+        let Report {
+            pixels_shaded,
+            pixels_skipped,
+            points,
+            ..
+        } = report;
+        output::line(&format!(
+            "  {pixels_shaded} pixels shaded, {pixels_skipped} left out; formulas evaluated at {points} points"
+        ))?;
+        for line in &report.explain {
+            output::line(&format!("  - {line}"))?;
+        }
+    }
+    Ok(())
 }
 
 fn draw(fingerprint: &Fingerprint, args: &Render, out: &Path) -> Result<Report, Failure> {
@@ -110,6 +144,7 @@ fn draw(fingerprint: &Fingerprint, args: &Render, out: &Path) -> Result<Report, 
     let file = path.display().to_string();
     let cached = cache_entry(fingerprint, args);
     if !args.force
+        && !args.no_skip
         && let Some((mut report, png)) = cached.as_deref().and_then(read_cache)
     {
         write(&path, &png)?;
@@ -120,6 +155,7 @@ fn draw(fingerprint: &Fingerprint, args: &Render, out: &Path) -> Result<Report, 
     }
     let options = Options {
         size: args.size,
+        skip: !args.no_skip,
         backend: match args.backend {
             Backend::Auto => renders::Backend::Auto,
             Backend::Gpu => renders::Backend::Gpu,
@@ -137,7 +173,6 @@ fn draw(fingerprint: &Fingerprint, args: &Render, out: &Path) -> Result<Report, 
     let png = picture.png();
     write(&path, &png)?;
     let made = picture.report;
-    let seen = made.visibility;
     let report = Report {
         file,
         lesson: fingerprint.lesson.to_owned(),
@@ -146,22 +181,15 @@ fn draw(fingerprint: &Fingerprint, args: &Render, out: &Path) -> Result<Report, 
         adapter: made.adapter,
         pixels_shaded: made.pixels_shaded,
         pixels_skipped: made.pixels_skipped,
+        points: made.points,
         terms_evaluated: made.terms_evaluated,
         terms_skipped: made.terms_skipped,
+        explain: made.explain,
         cache_hit: false,
         ms: milliseconds(start),
-        visibility: Some(Visibility {
-            lit_above_one: finite(seen.lit_above_one),
-            disc_above_one: finite(seen.disc_above_one),
-            ratio_at_highlight: finite(seen.ratio_at_highlight),
-            rim_over_highlight_wrong: finite(seen.rim_over_highlight.0),
-            rim_over_highlight_right: finite(seen.rim_over_highlight.1),
-            terminator_step: finite(seen.terminator_step),
-            brighter_by_8: finite(seen.changed_8.0),
-            dimmer_by_8: finite(seen.changed_8.1),
-        }),
+        visibility: Some(Visibility::of(&made.visibility)),
     };
-    if let Some(entry) = &cached {
+    if let (Some(entry), false) = (&cached, args.no_skip) {
         write_cache(entry, &report, &png);
     }
     Ok(report)
@@ -201,8 +229,10 @@ fn draw_plot(lesson: &Lesson, view: &PlotView, out: &Path) -> Result<Vec<Report>
             adapter: None,
             pixels_shaded: 0,
             pixels_skipped: 0,
+            points: 0,
             terms_evaluated: Vec::new(),
             terms_skipped: Vec::new(),
+            explain: Vec::new(),
             cache_hit: false,
             ms: milliseconds(start),
             visibility: None,
@@ -221,10 +251,6 @@ fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
 
 fn slug(id: &str) -> &str {
     id.rsplit('/').next().unwrap_or(id)
-}
-
-fn finite(number: f64) -> Option<f64> {
-    number.is_finite().then_some(number)
 }
 
 fn milliseconds(since: Instant) -> f64 {

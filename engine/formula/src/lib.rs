@@ -25,6 +25,7 @@ mod algebra;
 mod answer;
 mod block;
 mod builtin;
+mod constant;
 mod dag;
 mod digits;
 mod error;

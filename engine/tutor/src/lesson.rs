@@ -1,6 +1,7 @@
 //! A lesson as data: what its file says, parsed, with the place of every piece.
 
 mod exercise;
+mod fingerprint;
 
 use std::fmt;
 use std::ops::Deref;
@@ -15,6 +16,7 @@ use crate::rubric::Rubric;
 pub use exercise::{
     ChoiceOption, Exercise, ExerciseStep, NamedMistake, SuspectLine, Task, Tolerance, Variable,
 };
+pub use fingerprint::{Fingerprint, SEEN, STAGING, SceneLight};
 
 /// A string of the lesson file and where it stands.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -394,25 +396,6 @@ pub enum Test {
     },
     /// A comparison is true.
     Holds(Formula),
-}
-
-/// `[[fingerprint]]`: what a bug looks like.
-#[derive(Clone, Debug)]
-pub struct Fingerprint {
-    /// Name, for references; unique within the lesson.
-    pub id: Text,
-    /// Heading.
-    pub title: Text,
-    /// The right formula.
-    pub right: Formula,
-    /// The wrong one.
-    pub wrong: Formula,
-    /// Roughness, f0, angle of the light.
-    pub scene: Vec<Given>,
-    /// What the eye sees (prose).
-    pub shows: Text,
-    /// Where it does not show (prose).
-    pub hides: Option<Text>,
 }
 
 /// `[[reteach]]`: another angle.

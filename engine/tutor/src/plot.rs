@@ -87,7 +87,7 @@ impl Lesson {
     /// The fingerprint picture of that id.
     pub fn picture(&self, id: &str) -> Option<Block> {
         let print = self.fingerprints.iter().find(|it| it.id.text == id)?;
-        let known = values(&print.scene);
+        let known = print.known();
         let mut caption = self.inline(&print.shows, &known);
         if let Some(hides) = &print.hides {
             caption.push(crate::prose::Inline::Text(" ".to_owned()));

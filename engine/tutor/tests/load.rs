@@ -207,6 +207,79 @@ fn numbers_are_compared_as_printed() {
 }
 
 #[test]
+fn scenes_are_possible() {
+    const SCENE: &str = "scene = { roughness = 0.7, f0 = 0.95, light_deg = 60 }";
+    let scene = |with: &str| SCENE.replace("light_deg = 60", with);
+    check_edit(
+        SCENE,
+        &scene("light_deg = 180"),
+        "180",
+        "`light_deg` is 180, which no scene can have.",
+    );
+    check_edit(
+        SCENE,
+        &scene("light_deg = 60, eye_distance = 1"),
+        "1 }",
+        "`eye_distance` is 1, which no scene can have.",
+    );
+    check_edit(
+        SCENE,
+        &scene("light_deg = 60, v_dot_h = 1"),
+        "v_dot_h",
+        "`v_dot_h` follows from the scene, point by point.",
+    );
+    check_edit(
+        SCENE,
+        &scene("light_deg = 60, radius = 0.5").replace("0.7", "1.7"),
+        "1.7",
+        "`roughness` is 1.7, which no scene can have.",
+    );
+    let lit = |with: &str| scene("ior = 1.5") + "\nlight = [" + with + "]";
+    check_edit(
+        SCENE,
+        &lit("{ deg = 60 }, { deg = 20, distance = 0.5 }"),
+        "{ deg = 20",
+        "`distance` is 0.5, which no scene can have.",
+    );
+    check_edit(
+        SCENE,
+        &lit("{ deg = 60, colour = [1, 2] }"),
+        "[1, 2]",
+        "A colour has three numbers, not 2.",
+    );
+    check_edit(
+        SCENE,
+        &lit("{ turn_deg = 60 }"),
+        "{ turn_deg",
+        "[[fingerprint.light]] has no `deg`.",
+    );
+    check_edit(
+        SCENE,
+        &lit("{ deg = 60, intensity = 0 }"),
+        "",
+        "No light of `twice` shines.",
+    );
+    check_edit(
+        SCENE,
+        &(SCENE.to_owned() + "\nlight = [{ deg = 60 }]"),
+        "light_deg",
+        "The scene has `light_deg`, and lights of its own below.",
+    );
+    check_edit(
+        SCENE,
+        &(SCENE.to_owned() + "\nseen = { lit_above = 0.3 }"),
+        "lit_above",
+        "No figure of a picture is called `lit_above`.",
+    );
+    let text = edited(
+        SCENE,
+        &(lit("{ deg = 60 }, { deg = 20, colour = [1, 0.5, 0] }")
+            + "\nseen = { lit_above_one = 0.3 }"),
+    );
+    assert_eq!(findings(&text), []);
+}
+
+#[test]
 fn prose_types_no_numbers() {
     check_edit(
         "The peak of D is ",

@@ -5,6 +5,7 @@ mod draws;
 mod formulas;
 mod names;
 mod numbers;
+mod scenes;
 mod texts;
 
 use formula::{Expr, Values};
@@ -58,6 +59,7 @@ pub fn report(lesson: &Lesson) -> Report {
     names::check(&mut checker);
     formulas::check(&mut checker);
     numbers::check(&mut checker);
+    scenes::check(&mut checker);
     texts::check(&mut checker);
     let draws = draws::check(&mut checker);
     for explain in &lesson.explain {

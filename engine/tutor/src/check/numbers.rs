@@ -24,15 +24,6 @@ pub fn check(checker: &mut Checker<'_>) {
     for claim in &lesson.claims {
         check_claim(checker, claim);
     }
-    for print in &lesson.fingerprints {
-        for name in ["roughness", "f0", "light_deg"] {
-            if !print.scene.iter().any(|it| it.name.text == name) {
-                let message = format!("The scene of `{}` has no `{name}`.", print.id);
-                checker.error_in(&print.id, "missing-key", message).expected =
-                    Some("scene = { roughness = 0.7, f0 = 0.95, light_deg = 60 }".to_owned());
-            }
-        }
-    }
 }
 
 /// Compares a printed number with the core's.

@@ -36,7 +36,7 @@ pub fn check(checker: &mut Checker<'_>) {
         }
     }
     for print in &lesson.fingerprints {
-        let scene = values(&print.scene);
+        let scene = print.known();
         prose(checker, &print.title, &scene);
         prose(checker, &print.shows, &scene);
         optional(checker, print.hides.as_ref(), &scene);

@@ -6,6 +6,7 @@ mod exercise;
 mod figures;
 pub(crate) mod literal;
 mod reader;
+mod scene;
 
 use std::cell::RefCell;
 
@@ -16,8 +17,8 @@ pub(crate) use reader::{capitalised, nearest};
 
 use crate::finding::{Finding, Place, Severity};
 use crate::lesson::{
-    Claim, Explain, ExplainStage, Fingerprint, FormulaEntry, LazyJudge, Lesson, Reteach,
-    SourceSays, Step, TakesUp, Test, Text, Worked, WorkedLine,
+    Claim, Explain, ExplainStage, FormulaEntry, LazyJudge, Lesson, Reteach, SourceSays, Step,
+    TakesUp, Test, Text, Worked, WorkedLine,
 };
 use crate::prose::plain_blocks;
 use crate::rubric::Rubric;
@@ -134,7 +135,12 @@ fn read_lesson(table: &Table<'_, '_>) -> Lesson {
         exercises: each_some(table, "exercise", "[[exercise]]", |entry| {
             exercise::read(entry, worked.as_ref())
         }),
-        fingerprints: each_some(table, "fingerprint", "[[fingerprint]]", read_fingerprint),
+        fingerprints: each_some(
+            table,
+            "fingerprint",
+            "[[fingerprint]]",
+            scene::read_fingerprint,
+        ),
         reteach: each(table, "reteach", "[[reteach]]", |entry| Reteach {
             id: entry.need_text("id"),
             name: entry.need_text("name"),
@@ -306,25 +312,6 @@ fn read_claim(table: &Table<'_, '_>) -> Option<Claim> {
         return None;
     };
     Some(Claim { says, with, test })
-}
-
-fn read_fingerprint(table: &Table<'_, '_>) -> Option<Fingerprint> {
-    let (id, title) = (table.need_text("id"), table.need_text("title"));
-    let (scene, shows, hides) = (
-        table.givens("scene"),
-        table.need_text("shows"),
-        table.text("hides"),
-    );
-    let (right, wrong) = (table.need_formula("right"), table.need_formula("wrong"));
-    Some(Fingerprint {
-        id,
-        title,
-        right: right?,
-        wrong: wrong?,
-        scene,
-        shows,
-        hides,
-    })
 }
 
 fn read_explain(table: &Table<'_, '_>) -> Option<Explain> {

@@ -1,0 +1,87 @@
+//! What a bug looks like: two formulas and the scene that shows where they differ.
+
+use formula::Values;
+
+use super::{Formula, Given, Text, values};
+use crate::finding::Place;
+
+/// `[[fingerprint]]`: what a bug looks like.
+#[derive(Clone, Debug)]
+pub struct Fingerprint {
+    /// Name, for references; unique within the lesson.
+    pub id: Text,
+    /// Heading.
+    pub title: Text,
+    /// The right formula.
+    pub right: Formula,
+    /// The wrong one.
+    pub wrong: Formula,
+    /// Roughness, f0, angle of the only light, distance of the eye, and what else the formulas
+    /// need.
+    pub scene: Vec<Given>,
+    /// `[[fingerprint.light]]`: the lights, where `light_deg` alone does not say enough.
+    pub lights: Vec<SceneLight>,
+    /// Figures of the picture, as they are printed: `lobe check` compares them.
+    pub seen: Vec<Given>,
+    /// What the eye sees (prose).
+    pub shows: Text,
+    /// Where it does not show (prose).
+    pub hides: Option<Text>,
+}
+
+/// One light of a scene.
+#[derive(Clone, Debug)]
+pub struct SceneLight {
+    /// The whole entry.
+    pub place: Place,
+    /// Angle from the eye as seen from the sphere's centre, in degrees.
+    pub deg: f64,
+    /// Where around the eye's axis it stands, in degrees: 0 is right, 90 above.
+    pub turn_deg: f64,
+    /// From the sphere's centre, in radii; without it the light is distant.
+    pub distance: Option<f64>,
+    /// What its light is multiplied by.
+    pub intensity: f64,
+    /// Red, green, blue, linear.
+    pub colour: [f64; 3],
+}
+
+impl SceneLight {
+    /// The greatest of what its channels are multiplied by.
+    pub fn weight(&self) -> f64 {
+        self.intensity * self.colour.into_iter().fold(0.0, f64::max)
+    }
+}
+
+/// Numbers of a scene that say where it is seen from; formulas do not know them.
+pub const STAGING: [&str; 2] = ["eye_distance", "radius"];
+
+/// The figures of a picture that can be quoted in `seen`, as `lobe render --json` names them.
+pub const SEEN: [&str; 8] = [
+    "lit_above_one",
+    "disc_above_one",
+    "ratio_at_highlight",
+    "rim_over_highlight_wrong",
+    "rim_over_highlight_right",
+    "terminator_step",
+    "brighter_by_8",
+    "dimmer_by_8",
+];
+
+impl Fingerprint {
+    /// A number of the scene.
+    pub fn given(&self, name: &str) -> Option<&Given> {
+        self.scene.iter().find(|given| given.name.text == name)
+    }
+
+    /// The numbers that its texts may use: those of the scene, the first light's angle as
+    /// `light_deg`, and the figures in `seen`.
+    pub fn known(&self) -> Values {
+        let mut known = values(&self.scene);
+        if let Some(first) = self.lights.first() {
+            known.insert("light_deg".to_owned(), first.deg);
+        }
+        known.extend(values(&self.seen));
+        known
+    }
+}
