@@ -100,6 +100,7 @@ impl Learner {
         match &session.screen().input {
             Input::None => Deed::GoOn,
             Input::Number { .. } => Deed::Line(self.number(session)),
+            Input::Reply { .. } => Deed::Line(self.reply(session)),
             Input::Text { .. } => Deed::Explain(self.explanation(session)),
             Input::Choice { options } => {
                 let right = (0..options.len()).find(|at| {
@@ -137,6 +138,19 @@ impl Learner {
             }
             _ => step.truth.to_string(),
         }
+    }
+
+    /// A reply to a question of the tutor's.
+    fn reply(&mut self, session: &Session) -> String {
+        let key = &session.screen().key;
+        let item = key.split(':').nth(1).expect("a question is on the screen");
+        let explain = self.lesson.explain(item).expect("a question of the lesson");
+        let pass = explain
+            .rubric
+            .example
+            .iter()
+            .find(|it| it.verdict == "pass");
+        pass.expect("an example that passes").text.trim().to_owned()
     }
 
     fn right_order(&self, session: &Session) -> Vec<usize> {
@@ -280,7 +294,9 @@ fn entries(record: &Record) -> usize {
 /// Every answer in a log.
 fn answers(record: &Record) -> Vec<String> {
     let answer = |event: &Event| match event {
-        Event::Attempt { text, .. } | Event::Explained { text, .. } => Some(text.clone()),
+        Event::Attempt { text, .. }
+        | Event::Explained { text, .. }
+        | Event::Replied { text, .. } => Some(text.clone()),
         _ => None,
     };
     record

@@ -261,6 +261,19 @@ impl Plain {
                     "  ",
                 ));
             }
+            Input::Reply { label, note, draft } => {
+                lines.extend(text::wrap_plain(
+                    &format!("{label} ({note})?"),
+                    WIDTH,
+                    "",
+                    "  ",
+                ));
+                lines.push("[One line; :hint for more help, :skip for no more questions]".into());
+                if !draft.is_empty() && !same_screen {
+                    lines.push("You had begun to write:".into());
+                    lines.extend(draft.lines().map(|line| format!("| {line}")));
+                }
+            }
             Input::Text { label, draft } => {
                 lines.extend(text::wrap_plain(label, WIDTH, "", "  "));
                 lines.push(

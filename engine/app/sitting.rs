@@ -178,6 +178,7 @@ impl Sitting {
                 lesson,
                 id: picture,
             }),
+            Effect::Consult { .. } | Effect::StopConsulting => None,
             Effect::Quit => Some(Request::Leave),
         }
     }

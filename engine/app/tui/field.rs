@@ -29,6 +29,7 @@ impl Field {
         match input {
             Input::None => Self::None,
             Input::Number { .. } => Self::Line(Box::new(line(""))),
+            Input::Reply { draft, .. } => Self::Line(Box::new(reply(draft))),
             Input::Text { draft, .. } => Self::Editor(Box::new(editor(draft))),
             Input::Choice { .. } => Self::Choice { at: 0 },
             Input::Order { items } => Self::Order(Order {
@@ -119,6 +120,13 @@ fn line(text: &str) -> TextArea<'static> {
     let mut area = TextArea::new(vec![text.to_owned()]);
     area.set_cursor_line_style(ratatui::style::Style::new());
     area.move_cursor(CursorMove::End);
+    area
+}
+
+/// A line that may get long: it wraps instead of running out of the field.
+fn reply(draft: &str) -> TextArea<'static> {
+    let mut area = line(&draft.replace('\n', " "));
+    area.set_wrap_mode(WrapMode::WordOrGlyph);
     area
 }
 

@@ -278,7 +278,8 @@ impl LessonScreen {
         }
         let requests = self.sitting.tell(msg);
         if clears && let Field::Line(_) = self.field {
-            self.field = Field::of(&self.shown.input);
+            self.typed = None;
+            self.field = Field::of(&self.sitting.view().input);
         }
         self.refresh();
         if requests.contains(&Request::Leave) {
@@ -291,7 +292,7 @@ impl LessonScreen {
     /// Hands the text over that was not handed in, so that leaving keeps it.
     pub fn save_draft(&mut self) {
         if self.typed.take().is_some()
-            && let Field::Editor(_) = &self.field
+            && matches!(self.shown.input, Input::Text { .. } | Input::Reply { .. })
         {
             let text = self.field.text().unwrap_or_default();
             // A draft asks for nothing but to be saved.
@@ -337,7 +338,8 @@ impl LessonScreen {
 /// Whether a field made for one serves for the other, text and all.
 fn same_input(a: &Input, b: &Input) -> bool {
     match (a, b) {
-        (Input::Text { label: a, .. }, Input::Text { label: b, .. }) => a == b,
+        (Input::Text { label: a, .. }, Input::Text { label: b, .. })
+        | (Input::Reply { label: a, .. }, Input::Reply { label: b, .. }) => a == b,
         (Input::Checklist { points: a }, Input::Checklist { points: b }) => a
             .iter()
             .map(|point| &point.text)

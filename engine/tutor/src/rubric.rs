@@ -31,12 +31,18 @@ pub struct Expectation {
     /// Id of the `[[reteach]]` shown when it is missed.
     #[serde(default)]
     pub reteach: Option<String>,
-    /// The pointed question asked when the judge is unsure about it.
+    /// The pointed question asked where it is missing or the judge is unsure about it. It does
+    /// not give it away.
     #[serde(default)]
     pub ask: Option<String>,
-    /// A nudge that does not give it away.
+    /// A nudge that does not give it away, after the question.
     #[serde(default)]
     pub hint: Option<String>,
+    /// The thing as one sentence with its decisive words in square brackets, after the nudge:
+    /// "At the rim the ball is [too bright]." The learner sees a blank in their place. A
+    /// question in round brackets is for the learner only: "(which way?)".
+    #[serde(default)]
+    pub prompt: Option<String>,
 }
 
 /// One wrong thing that learners say.
@@ -68,6 +74,92 @@ pub struct Misconception {
     /// What the tutor answers when it hears this.
     #[serde(default)]
     pub says_back: Option<String>,
+    /// The pointed question asked where the judge is unsure whether the answer says it.
+    #[serde(default)]
+    pub ask: Option<String>,
+    /// A nudge that does not give it away, after the question.
+    #[serde(default)]
+    pub hint: Option<String>,
+    /// The truth as one sentence with a blank, as in [`Expectation::prompt`].
+    #[serde(default)]
+    pub prompt: Option<String>,
+}
+
+/// A sentence with its decisive words in square brackets, taken apart.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Blank<'a> {
+    before: &'a str,
+    /// The author's words for the blank.
+    pub fill: &'a str,
+    after: &'a str,
+}
+
+impl<'a> Blank<'a> {
+    /// The first pair of square brackets of a prompt; `None` where there is none.
+    pub fn of(prompt: &'a str) -> Option<Blank<'a>> {
+        let (before, rest) = prompt.split_once('[')?;
+        let (fill, after) = rest.split_once(']')?;
+        Some(Blank {
+            before,
+            fill,
+            after,
+        })
+    }
+
+    /// As the learner sees it.
+    pub fn open(&self) -> String {
+        format!("{}\\_\\_\\_{}", self.before, self.after)
+    }
+
+    /// The sentence with these words in the blank, and without questions in round brackets.
+    pub fn filled(&self, words: &str) -> String {
+        let words = words.trim().trim_end_matches(['.', '!', '?']);
+        let whole = format!(
+            "{}{words}{}",
+            aside_removed(self.before),
+            aside_removed(self.after)
+        );
+        whole.trim().to_owned()
+    }
+}
+
+/// The text without the questions that stand in round brackets.
+fn aside_removed(text: &str) -> String {
+    let mut out = String::new();
+    let mut rest = text;
+    while let Some((before, after)) = rest.split_once('(') {
+        match after.split_once(')') {
+            Some((aside, behind)) if aside.trim_end().ends_with('?') => {
+                out.push_str(before.trim_end());
+                rest = behind;
+            }
+            _ => {
+                out.push_str(before);
+                out.push('(');
+                rest = after;
+            }
+        }
+    }
+    out + rest
+}
+
+/// What the tutor has to say about one criterion, expectation or misconception alike.
+#[derive(Clone, Copy, Debug)]
+pub struct Criterion<'a> {
+    /// Its id.
+    pub id: &'a str,
+    /// The sentence for teachers.
+    pub says: &'a str,
+    /// The pointed question.
+    pub ask: Option<&'a str>,
+    /// The nudge.
+    pub hint: Option<&'a str>,
+    /// The sentence with a blank.
+    pub prompt: Option<&'a str>,
+    /// Whether it is a wrong thing.
+    pub is_misconception: bool,
+    /// Whether a verdict hangs on it: a required expectation, a blocking misconception.
+    pub decides: bool,
 }
 
 /// An answer with the verdict that the author gives it.
@@ -104,4 +196,61 @@ pub struct Rubric {
     /// Answers with their verdicts, checked by `lobe check`.
     #[serde(default)]
     pub example: Vec<Example>,
+}
+
+impl Rubric {
+    /// Expectations, then misconceptions, in the rubric's order.
+    pub fn criteria(&self) -> impl Iterator<Item = Criterion<'_>> {
+        let expectations = self.expectation.iter().map(|it| Criterion {
+            id: &it.id,
+            says: &it.says,
+            ask: it.ask.as_deref(),
+            hint: it.hint.as_deref(),
+            prompt: it.prompt.as_deref(),
+            is_misconception: false,
+            decides: it.required,
+        });
+        let misconceptions = self.misconception.iter().map(|it| Criterion {
+            id: &it.id,
+            says: &it.says,
+            ask: it.ask.as_deref(),
+            hint: it.hint.as_deref(),
+            prompt: it.prompt.as_deref(),
+            is_misconception: true,
+            decides: it.blocking,
+        });
+        expectations.chain(misconceptions)
+    }
+
+    /// The criterion of that id.
+    pub fn criterion(&self, id: &str) -> Option<Criterion<'_>> {
+        self.criteria().find(|criterion| criterion.id == id)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check_blank(prompt: &str, seen: &str, words: &str, filled: &str) {
+        let blank = Blank::of(prompt).expect("square brackets");
+        assert_eq!(blank.open().replace('\\', ""), seen);
+        assert_eq!(blank.filled(words), filled);
+    }
+
+    #[test]
+    fn a_blank_is_seen_and_filled() {
+        check_blank("It is [1/π].", "It is ___.", "0.3.", "It is 0.3.");
+        check_blank(
+            "The rim is [bright] (bright or dark?).",
+            "The rim is ___ (bright or dark?).",
+            " dark ",
+            "The rim is dark.",
+        );
+        check_blank("f(x) is [1]", "f(x) is ___", "2", "f(x) is 2");
+        check_blank("[Up]", "___", "", "");
+        assert_eq!(Blank::of("no blank ["), None);
+        assert_eq!(Blank::of("] no blank ["), None);
+    }
 }

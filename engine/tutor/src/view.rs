@@ -100,6 +100,15 @@ pub enum Input {
         /// What was typed before, and not yet handed in.
         draft: String,
     },
+    /// A sentence or a few words, in reply to a question of the tutor's.
+    Reply {
+        /// What to write, as a short prompt.
+        label: String,
+        /// How much is enough.
+        note: String,
+        /// What was typed before, and not yet handed in.
+        draft: String,
+    },
     /// One of several; answered by its letter (`a`, `b`, …), its number, or its text.
     Choice {
         /// The options in the order shown.
@@ -178,6 +187,8 @@ pub struct View {
     pub next_label: String,
     /// What `Msg::Skip` does: "skip this exercise"; empty where nothing can be skipped.
     pub skip_label: String,
+    /// What is under way and worth waiting for, in a few words; `Msg::Skip` waits no longer.
+    pub waiting: Option<String>,
     /// One line about the last message; gone with the next.
     pub note: Option<String>,
     /// Whether all this is saved.

@@ -374,6 +374,51 @@ fn references_and_ids() {
 }
 
 #[test]
+fn what_the_tutor_asks_back() {
+    let ask = "ask = \"What is V made of?\"";
+    check_edit(ask, "# no question", "", "`already-inside` has no `ask`.");
+    check_edit(
+        ask,
+        "ask = \"Is the division already inside V?\"",
+        "Is the division already inside V?",
+        "This gives `already-inside` away: the judge hears it in the ask itself.",
+    );
+    check_edit(
+        "[already inside V] (where?)",
+        "already inside V",
+        "",
+        "This gives `already-inside` away",
+    );
+    check_edit(
+        "[already inside V] (where?)",
+        "somewhere",
+        "",
+        "The prompt of `already-inside` has no blank.",
+    );
+    check_edit(
+        "[already inside V]",
+        "[quite elsewhere]",
+        "",
+        "\"The division is quite elsewhere.\" should settle `already-inside`",
+    );
+    // Numbers in what the tutor says are computed, as everywhere.
+    for words in ["Look at the one half on top.", "At the peak it does."] {
+        check_edit(words, "Look at 0.5.", "0.5", "0.5 is typed here");
+        check_edit(words, "{{ nobody }}", "nobody", "");
+    }
+}
+
+#[test]
+fn a_lesson_asks_for_an_explanation() {
+    let end = COMPLETE.find("[[explain]]").expect("questions");
+    let found = findings(&COMPLETE[..end]);
+    assert!(
+        matches!(&found[..], [it] if it.code == "nothing-explained" && it.severity == tutor::Severity::Error),
+        "{found:?}"
+    );
+}
+
+#[test]
 fn exercises_are_rich_enough() {
     check_edit(
         "tolerance = { rel = 0.02 }",

@@ -21,6 +21,7 @@ pub fn height(screen: &LessonScreen, width: u16, room: u16) -> u16 {
     let rows = match (&screen.view().input, &screen.field) {
         (Input::None, _) | (_, Field::None) => return 0,
         (Input::Number { .. }, _) => 1,
+        (Input::Reply { .. }, _) => 3,
         // Large enough to see what one writes, small enough to see what one answers.
         (Input::Text { .. }, _) => (room / 3).clamp(4, 14),
         (Input::Choice { options }, _) => wrapped_rows(options.iter().map(String::as_str), inner),
@@ -50,7 +51,9 @@ pub fn draw(frame: &mut Frame, area: Rect, screen: &LessonScreen, palette: Palet
     let view = screen.view();
     let (label, note) = match &view.input {
         Input::None => return,
-        Input::Number { label, note } => (label.clone(), note.clone()),
+        Input::Number { label, note } | Input::Reply { label, note, .. } => {
+            (label.clone(), note.clone())
+        }
         Input::Text { label, .. } => (label.clone(), String::new()),
         Input::Choice { .. } => ("Which one?".to_owned(), String::new()),
         Input::Order { .. } => (

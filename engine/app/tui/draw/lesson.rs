@@ -284,6 +284,9 @@ fn keys(screen: &LessonScreen) -> Vec<Key> {
             if view.can.hint.is_some() {
                 keys.push(key("Ctrl-T", hint_label(view)));
             }
+            if let Input::Reply { .. } = view.input {
+                keys.push(key("Esc s", &view.skip_label));
+            }
             let rest = [
                 ("Esc", "leave field"),
                 ("F1", "help"),

@@ -1,6 +1,7 @@
 //! Everything `lobe check` says about lessons beyond reading them: every number against the
 //! core, every reference, every exercise drawn, every example judged.
 
+mod dialogue;
 mod draws;
 mod formulas;
 mod names;
@@ -61,6 +62,7 @@ pub fn report(lesson: &Lesson) -> Report {
     numbers::check(&mut checker);
     scenes::check(&mut checker);
     texts::check(&mut checker);
+    dialogue::check(&mut checker);
     let draws = draws::check(&mut checker);
     for explain in &lesson.explain {
         for finding in crate::judge::check_examples(&explain.rubric) {

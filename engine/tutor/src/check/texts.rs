@@ -57,7 +57,7 @@ pub fn check(checker: &mut Checker<'_>) {
 }
 
 /// Prose: templates, and typed decimals.
-fn prose(checker: &mut Checker<'_>, text: &Text, values: &Values) {
+pub(super) fn prose(checker: &mut Checker<'_>, text: &Text, values: &Values) {
     label(checker, text, values);
     for span in template::typed_numbers(text) {
         let number = text[span.clone()].to_owned();

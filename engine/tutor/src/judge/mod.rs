@@ -248,6 +248,27 @@ impl Judge {
         judgement
     }
 
+    /// Criteria whose contrary a text says: what it takes back, where it follows another.
+    pub fn denied(&self, text: &str) -> Vec<String> {
+        let (lexicon, reading) = (lexicon(), self.read(text));
+        let says = |criterion: &&Criterion| {
+            let ears = Ears {
+                strict: criterion.is_misconception,
+                understood: self.understood,
+            };
+            let against = criterion.against.iter();
+            criterion
+                .phrases
+                .iter()
+                .any(|it| it.gainsaid(lexicon, &reading))
+                || against
+                    .map(|it| it.said(lexicon, &reading, ears).score)
+                    .any(|it| it >= STATED)
+        };
+        let denied = self.criteria.iter().filter(says);
+        denied.map(|criterion| criterion.id.clone()).collect()
+    }
+
     /// The same words are one slip, not two: where they say one that does not block, they are
     /// not held against the learner under the name of one that does.
     fn count_words_once(&self, judgement: &mut Judgement) {

@@ -1,13 +1,15 @@
 //! Events become state. Total: an event that does not fit is passed over and remembered as such.
 
 use super::Session;
-use super::event::Event;
-use super::problem::{Problem, Turn, mix};
-use super::question::{Heard, Question, Try};
+use super::dialogue::{self, Asked, Reply, Turn};
+use super::event::{Event, Quote};
+use super::problem::{self, Problem, mix};
+use super::question::{Heard, Question, Second, Try};
 use super::screen::{Screen, faded_lines};
 use crate::judge::Verdict;
 use crate::view::Stage;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 impl Session {
     /// Applies one event.
@@ -29,7 +31,7 @@ impl Session {
             }
             Event::GoOn { item, round, step } => {
                 let step = step.clone();
-                self.turn(item, *round, Turn::GoneOn { step });
+                self.turn(item, *round, problem::Turn::GoneOn { step });
             }
             Event::Hint {
                 item,
@@ -38,12 +40,15 @@ impl Session {
                 level,
             } => {
                 let level = (*level).clamp(1, 3);
-                if self.lesson.explain(item).is_some() {
+                if self.lesson.explain(item).is_some() && !step.is_empty() {
+                    let about = step.clone();
+                    self.further(item, *round, about);
+                } else if self.lesson.explain(item).is_some() {
                     let index = round.clamp(&1, &2) - 1;
                     self.question(item).hints[index as usize] = level;
                 } else {
                     let step = step.clone();
-                    self.turn(item, *round, Turn::Hint { step, level });
+                    self.turn(item, *round, problem::Turn::Hint { step, level });
                 }
             }
             Event::Draft { item, text } => self.question(item).draft.clone_from(text),
@@ -62,7 +67,7 @@ impl Session {
                 self.turn(
                     item,
                     *round,
-                    Turn::Attempt {
+                    problem::Turn::Attempt {
                         step: step.clone(),
                         text: text.clone(),
                         result: result.clone(),
@@ -76,6 +81,12 @@ impl Session {
                 }
             }
             Event::Explained { .. } => self.explained(event),
+            Event::Replied { .. } => self.replied(event),
+            Event::LeftOpen { item, attempt } => {
+                let is_asked = self.asked(item, *attempt).is_some();
+                self.take_turn(item, *attempt, is_asked, Turn::Left);
+            }
+            Event::SecondOpinion { .. } => self.second_opinion(event),
             Event::Marked {
                 item,
                 attempt,
@@ -102,6 +113,7 @@ impl Session {
                         missed: missed.clone(),
                         misconceptions: misconceptions.clone(),
                         slips: slips.clone(),
+                        unsure: Vec::new(),
                     });
                 }
             }
@@ -167,7 +179,7 @@ impl Session {
         self.problems.insert(key, problem);
     }
 
-    fn turn(&mut self, item: &str, round: u32, turn: Turn) {
+    fn turn(&mut self, item: &str, round: u32, turn: problem::Turn) {
         self.begin(item, round);
         let Some(problem) = self.problems.get_mut(&(item.to_owned(), round)) else {
             return;
@@ -214,18 +226,148 @@ impl Session {
         question.draft.clear();
         question.tries.push(Try {
             text: text.clone(),
+            first: Heard {
+                verdict: Verdict::parse(verdict).unwrap_or(Verdict::Fail),
+                met: met.clone(),
+                missed: missed.clone(),
+                misconceptions: misconceptions.clone(),
+                slips: slips.clone(),
+                unsure: unsure.clone(),
+            },
+            why: why.clone(),
+            second: None,
+            turns: Vec::new(),
+            asked: None,
+            marks: BTreeMap::new(),
+            own: None,
+        });
+        self.ask_on(item, *attempt);
+    }
+
+    /// The question that stands open about a try.
+    fn asked(&self, item: &str, attempt: u32) -> Option<&Asked> {
+        let index = (attempt as usize).checked_sub(1)?;
+        self.questions.get(item)?.tries.get(index)?.asked.as_ref()
+    }
+
+    /// Finds the question that follows from what was said.
+    fn ask_on(&mut self, item: &str, attempt: u32) {
+        let lesson = Arc::clone(&self.lesson);
+        if let (Some(explain), Some(tried)) = (lesson.explain(item), self.tried(item, attempt)) {
+            tried.asked = dialogue::script(&explain.rubric, tried).1;
+        }
+    }
+
+    fn take_turn(&mut self, item: &str, attempt: u32, fits: bool, turn: Turn) {
+        if !fits {
+            self.diverged = true;
+            return;
+        }
+        // What was begun in reply goes on in reply to the next help.
+        if !matches!(turn, Turn::Further { .. }) {
+            self.question(item).draft.clear();
+        }
+        if let Some(tried) = self.tried(item, attempt) {
+            tried.turns.push(turn);
+        }
+        self.ask_on(item, attempt);
+    }
+
+    fn further(&mut self, item: &str, attempt: u32, about: String) {
+        let asked = self.asked(item, attempt).cloned();
+        match asked.filter(|asked| asked.about == about) {
+            Some(Asked { rung, .. }) => {
+                let turn = Turn::Further { about, rung };
+                self.take_turn(item, attempt, true, turn);
+            }
+            None => self.diverged = true,
+        }
+    }
+
+    fn replied(&mut self, event: &Event) {
+        let Event::Replied {
+            item,
+            attempt,
+            about,
+            rung,
+            asked: _,
+            text,
+            verdict,
+            met,
+            missed,
+            misconceptions,
+            slips,
+            unsure,
+            judge: _,
+            why,
+        } = event
+        else {
+            return;
+        };
+        let question = Asked {
+            about: about.clone(),
+            rung: *rung,
+        };
+        let fits = self.asked(item, *attempt) == Some(&question);
+        let reply = Reply {
+            about: about.clone(),
+            rung: *rung,
+            text: text.clone(),
+            why: why.clone(),
             heard: Heard {
                 verdict: Verdict::parse(verdict).unwrap_or(Verdict::Fail),
                 met: met.clone(),
                 missed: missed.clone(),
                 misconceptions: misconceptions.clone(),
                 slips: slips.clone(),
+                unsure: unsure.clone(),
             },
+        };
+        self.take_turn(item, *attempt, fits, Turn::Replied(reply));
+    }
+
+    fn second_opinion(&mut self, event: &Event) {
+        let Event::SecondOpinion {
+            item,
+            attempt,
+            settled,
+            verdict,
+            met,
+            missed,
+            misconceptions,
+            slips,
+            unsure,
+            why,
+            result,
+            problem,
+            ..
+        } = event
+        else {
+            return;
+        };
+        if self.waiting.as_ref() == Some(&(item.clone(), *attempt)) {
+            self.waiting = None;
+        }
+        let Some(tried) = self.tried(item, *attempt) else {
+            return;
+        };
+        // What was asked or marked meanwhile is not undone by an opinion that comes late.
+        let in_time = tried.turns.is_empty() && tried.own.is_none() && tried.marks.is_empty();
+        let heard = Heard {
+            verdict: Verdict::parse(verdict).unwrap_or(Verdict::Fail),
+            met: met.clone(),
+            missed: missed.clone(),
+            misconceptions: misconceptions.clone(),
+            slips: slips.clone(),
             unsure: unsure.clone(),
-            why: why.clone(),
-            marks: BTreeMap::new(),
-            own: None,
+        };
+        let decided = |why: &&Quote| settled.contains(&why.id);
+        tried.second = Some(Second {
+            settled: (in_time && !settled.is_empty()).then_some(heard),
+            why: why.iter().filter(decided).cloned().collect(),
+            problem: problem.clone().filter(|_| in_time && result == "unusable"),
         });
+        self.ask_on(item, *attempt);
     }
 
     /// Back to the start of a stage: what was done in it is forgotten, what came before stays.
@@ -333,7 +475,7 @@ impl Session {
             })
         };
         match at {
-            Screen::Explain { attempt: 1, .. } if question.wants_second_try() => {
+            Screen::Explain { attempt: 1, .. } if question.wants_second_try(&explain.rubric) => {
                 Some(reteach(0).unwrap_or_else(again))
             }
             Screen::Reteach { name, .. } => {

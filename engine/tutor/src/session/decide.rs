@@ -1,13 +1,16 @@
 //! Messages become events: here answers are marked and explanations judged, once.
 
 use super::Session;
-use super::event::{Event, Msg, Quote};
+use super::dialogue::Asked;
+use super::event::{Effect, Event, Msg, Quote};
 use super::problem::{Problem, WHOLE};
-use super::question::{Heard, Question};
+use super::question::{Heard, Question, Try};
 use super::screen::Screen;
+use super::{reply, show_dialogue};
 use crate::exercise::{self, Marking};
 use crate::judge::{JUDGE_VERSION, Judgement};
-use crate::lesson::{Explain, Task};
+use crate::lesson::{Explain, Lesson, Task};
+use crate::prose::plain;
 use crate::view::Saving;
 
 /// What a message leads to.
@@ -17,11 +20,16 @@ pub(super) struct Decided {
     /// One line for the learner.
     pub(super) note: Option<String>,
     pub(super) saving: Option<Saving>,
+    pub(super) effects: Vec<Effect>,
+    /// The try whose second opinion is waited for from here on.
+    pub(super) waits: Option<(String, u32)>,
+    /// The try on which nobody is asked for a second opinion, for it tells judges what to do.
+    pub(super) asks_nobody: Option<(String, u32)>,
     pub(super) quit: bool,
 }
 
 impl Decided {
-    fn event(event: Event) -> Decided {
+    pub(super) fn event(event: Event) -> Decided {
         Decided {
             events: vec![event],
             ..Decided::default()
@@ -46,6 +54,10 @@ pub(super) enum Open<'a> {
     Step(&'a Problem, &'a str),
     /// An explanation to write.
     Text(&'a Explain, &'a Question),
+    /// A second opinion to wait for.
+    Opinion,
+    /// A question of the tutor's to reply to.
+    Reply(&'a Explain, &'a Try, &'a Asked),
     /// A checklist to mark.
     Marks(&'a Explain, &'a Question),
 }
@@ -62,6 +74,12 @@ impl Session {
             Msg::Draft(text) => self.draft(text),
             Msg::Mark { point, said } => self.mark(point, said),
             Msg::ChecklistDone => self.checklist_done(),
+            Msg::SecondOpinion {
+                item,
+                attempt,
+                by,
+                said,
+            } => self.second_opinion_came(&item, attempt, by, said),
             Msg::SaveFailed(why) => Decided {
                 saving: Some(Saving::Failed(why)),
                 note: self.view.note.take(),
@@ -79,6 +97,15 @@ impl Session {
         };
         for event in &decided.events {
             self.apply(event);
+        }
+        if let Some((item, attempt)) = decided.asks_nobody.take() {
+            let problem = Err("the answer speaks to the judge".to_owned());
+            let noted = self.second_opinion_came(&item, attempt, String::new(), problem);
+            noted.events.iter().for_each(|event| self.apply(event));
+            decided.events.extend(noted.events);
+        }
+        if decided.waits.is_some() {
+            self.waiting = decided.waits.take();
         }
         let ended = (*self.here() == Screen::Result).then(|| self.verdict());
         if let Some((grade, words)) = ended.filter(|ended| self.finished.as_ref() != Some(ended)) {
@@ -115,13 +142,19 @@ impl Session {
                 else {
                     return Open::Nothing;
                 };
+                let is_waiting = self.is_waiting(item, *attempt);
                 let attempt = *attempt as usize;
+                let rubric = &explain.rubric;
                 match question.tries.get(attempt - 1) {
-                    Some(tried) if tried.is_open() => Open::Marks(explain, question),
-                    Some(_) => Open::Nothing,
+                    Some(_) if is_waiting => Open::Opinion,
+                    Some(tried) => match &tried.asked {
+                        Some(asked) => Open::Reply(explain, tried, asked),
+                        None if tried.wants_marks(rubric) => Open::Marks(explain, question),
+                        None => Open::Nothing,
+                    },
                     // The second try opens when the first is settled.
                     None if question.tries.len() + 1 == attempt
-                        && question.last().is_none_or(|first| !first.is_open()) =>
+                        && question.last().is_none_or(|first| !first.is_open(rubric)) =>
                     {
                         Open::Text(explain, question)
                     }
@@ -158,7 +191,15 @@ impl Session {
                 lines: self.revealed + 1,
             }),
             Open::Step(problem, step) if problem.may_go_on(step) => self.go_on(step),
-            Open::Step(..) | Open::Text(..) | Open::Marks(..) if self.is_reviewing() => on(),
+            Open::Step(..) | Open::Text(..) | Open::Reply(..) | Open::Marks(..)
+                if self.is_reviewing() =>
+            {
+                on()
+            }
+            Open::Opinion => Decided::note("A moment: a second opinion is asked for."),
+            Open::Reply(..) => {
+                Decided::note("A few words will do; more help can be had, and so can an end.")
+            }
             Open::Step(..) => {
                 Decided::note("Your answer first; a hint helps, and skipping is allowed.")
             }
@@ -192,6 +233,16 @@ impl Session {
 
     fn skip(&self) -> Decided {
         let here = self.here();
+        match (self.open(), here) {
+            (Open::Opinion, _) => return self.stop_waiting(),
+            (Open::Reply(explain, ..), Screen::Explain { attempt, .. }) => {
+                return Decided::event(Event::LeftOpen {
+                    item: explain.rubric.item.clone(),
+                    attempt: *attempt,
+                });
+            }
+            _ => {}
+        }
         let to = match here {
             Screen::Result => return Decided::note("Nothing is left to skip."),
             Screen::Why | Screen::Step(_) | Screen::Worked => self.after_stage(here),
@@ -228,6 +279,14 @@ impl Session {
                 step: WHOLE.to_owned(),
                 level,
             }),
+            (Open::Reply(_, _, asked), Screen::Explain { item, attempt }) => {
+                Decided::event(Event::Hint {
+                    item: item.clone(),
+                    round: *attempt,
+                    step: asked.about.clone(),
+                    level,
+                })
+            }
             _ => Decided::default(),
         }
     }
@@ -248,6 +307,7 @@ impl Session {
                     (shown < 3).then_some(3)
                 }
             }
+            (Open::Reply(_, _, asked), _) => Some(asked.rung.level()),
             _ => None,
         }
     }
@@ -259,8 +319,13 @@ impl Session {
                 self.answer_step(screen, problem, step, text)
             }
             (Open::Text(explain, _), Screen::Explain { attempt, .. }) if !empty => {
-                Decided::event(explained(explain, *attempt, text))
+                let event = explained(explain, *attempt, text);
+                self.consulting(explain, event)
             }
+            (Open::Reply(explain, tried, asked), Screen::Explain { attempt, .. }) if !empty => {
+                Decided::event(replied(&self.lesson, explain, *attempt, tried, asked, text))
+            }
+            (Open::Reply(..) | Open::Opinion, _) => self.next(),
             // An empty line goes on, where there is a way on.
             (Open::Step(..), _) => self.next(),
             (Open::Text(..), _) => Decided::note("Nothing was typed, so nothing counts."),
@@ -312,7 +377,9 @@ impl Session {
 
     fn draft(&self, text: String) -> Decided {
         match (self.open(), self.here()) {
-            (Open::Text(_, question), Screen::Explain { item, .. }) if question.draft != text => {
+            (Open::Text(..) | Open::Reply(..), Screen::Explain { item, .. })
+                if self.questions.get(item).is_some_and(|it| it.draft != text) =>
+            {
                 Decided::event(Event::Draft {
                     item: item.clone(),
                     text,
@@ -373,34 +440,52 @@ impl Session {
 
 fn explained(explain: &Explain, attempt: u32, text: String) -> Event {
     let Judgement {
-        verdict,
+        verdict: _,
         met,
         misconceptions,
         unsure,
         why,
     } = explain.judge.judge(&text);
-    let heard = Heard::new(&explain.rubric, verdict, met, misconceptions);
-    let missed = heard.missed.into_iter();
-    let unsure_too = |id: &String| unsure.contains(id);
+    let heard = Heard::new(&explain.rubric, met, misconceptions, unsure);
     Event::Explained {
         item: explain.rubric.item.clone(),
         attempt,
-        verdict: verdict.as_str().to_owned(),
+        verdict: heard.verdict.as_str().to_owned(),
         met: heard.met,
-        missed: missed.filter(|id| !unsure_too(id)).collect(),
+        missed: heard.missed,
         misconceptions: heard.misconceptions,
         slips: heard.slips,
-        unsure,
+        unsure: heard.unsure,
         judge: JUDGE_VERSION.to_owned(),
-        why: why
-            .into_iter()
-            .map(|why| Quote {
-                id: why.id,
-                quote: why.quote,
-                start: why.start,
-                end: why.end,
-            })
-            .collect(),
+        why: why.into_iter().map(Quote::from).collect(),
         text,
+    }
+}
+
+fn replied(
+    lesson: &Lesson,
+    explain: &Explain,
+    attempt: u32,
+    tried: &Try,
+    asked: &Asked,
+    text: String,
+) -> Event {
+    let reply = reply::hear(lesson, explain, tried, asked, &text);
+    let heard = reply.heard;
+    Event::Replied {
+        item: explain.rubric.item.clone(),
+        attempt,
+        asked: plain(&show_dialogue::question(lesson, explain, tried, asked)),
+        about: reply.about,
+        rung: reply.rung,
+        text,
+        verdict: heard.verdict.as_str().to_owned(),
+        met: heard.met,
+        missed: heard.missed,
+        misconceptions: heard.misconceptions,
+        slips: heard.slips,
+        unsure: heard.unsure,
+        judge: JUDGE_VERSION.to_owned(),
+        why: reply.why,
     }
 }

@@ -1,11 +1,14 @@
 //! What comes in, what goes out, and what is kept of a session.
 
+pub use super::dialogue::Rung;
+use crate::judge::Why;
+use crate::opinion::Finding;
 use crate::view::Stage;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// What the learner or the machine tells the session.
-#[derive(Serialize, Deserialize, Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Msg {
     /// Go on: next line, next question, next screen.
     Next,
@@ -28,6 +31,17 @@ pub enum Msg {
     },
     /// The checklist is marked as it should be.
     ChecklistDone,
+    /// What the second opinion that [`Effect::Consult`] asked for came to.
+    SecondOpinion {
+        /// Id of the question.
+        item: String,
+        /// The try it is about.
+        attempt: u32,
+        /// Who was asked.
+        by: String,
+        /// What came back, unchecked; or why nothing did.
+        said: Result<Vec<Finding>, String>,
+    },
     /// The log could not be written, and why.
     SaveFailed(String),
     /// Everything handed out by [`Effect::Save`] so far is on the disk.
@@ -39,6 +53,8 @@ pub enum Msg {
 /// What the app is asked to do.
 #[must_use]
 #[derive(Clone, Debug, PartialEq)]
+// A handful at a time, and nearly all of them are events.
+#[allow(clippy::large_enum_variant)]
 pub enum Effect {
     /// Append to the log, and answer with [`Msg::Saved`] or [`Msg::SaveFailed`].
     Save(Event),
@@ -49,6 +65,17 @@ pub enum Effect {
         /// Id of the fingerprint.
         picture: String,
     },
+    /// Have a second opinion on an answer, and bring it back as [`Msg::SecondOpinion`].
+    Consult {
+        /// Id of the question.
+        item: String,
+        /// The try it is about.
+        attempt: u32,
+        /// The answer.
+        text: String,
+    },
+    /// The learner waits for it no longer.
+    StopConsulting,
     /// Leave.
     Quit,
 }
@@ -65,6 +92,17 @@ pub struct Quote {
     pub start: usize,
     /// One past their last byte.
     pub end: usize,
+}
+
+impl From<Why> for Quote {
+    fn from(why: Why) -> Quote {
+        Quote {
+            id: why.id,
+            quote: why.quote,
+            start: why.start,
+            end: why.end,
+        }
+    }
 }
 
 /// A slip heard in an earlier lesson.
@@ -128,13 +166,13 @@ pub enum Event {
         /// The screen's key.
         screen: String,
     },
-    /// A hint was shown.
+    /// A hint was shown; in a dialogue about an answer, the next help was asked for.
     Hint {
         /// Id of the exercise or question.
         item: String,
         /// 0 the first time, 1 in the re-test; the try, for a question.
         round: u32,
-        /// The step it is for; empty for a question.
+        /// The step it is for; empty for a question; in a dialogue, the criterion.
         step: String,
         /// From 1 to 3.
         level: u8,
@@ -205,6 +243,99 @@ pub enum Event {
         #[serde(default)]
         why: Vec<Quote>,
     },
+    /// A reply to a question that the tutor asked back, judged with what was said before.
+    Replied {
+        /// Id of the question.
+        item: String,
+        /// The try that it is about.
+        #[serde(rename = "try")]
+        attempt: u32,
+        /// Id of the criterion asked about.
+        about: String,
+        /// How much the question gave away.
+        rung: Rung,
+        /// The question as the learner read it.
+        asked: String,
+        /// The raw text typed.
+        text: String,
+        /// What follows from answer and replies: `pass`, `partial`, `fail` or `unsure`.
+        verdict: String,
+        /// Expectations met, in answer and replies.
+        #[serde(default)]
+        met: Vec<String>,
+        /// Required expectations not met.
+        #[serde(default)]
+        missed: Vec<String>,
+        /// Misconceptions that stand, slips included.
+        #[serde(default)]
+        misconceptions: Vec<String>,
+        /// Those of them that block nothing.
+        #[serde(default)]
+        slips: Vec<String>,
+        /// Criteria that are still open.
+        #[serde(default)]
+        unsure: Vec<String>,
+        /// Which judge decided.
+        judge: String,
+        /// The words of the reply that decided something.
+        #[serde(default)]
+        why: Vec<Quote>,
+    },
+    /// The learner wants to be asked no more about a try.
+    LeftOpen {
+        /// Id of the question.
+        item: String,
+        /// The try.
+        #[serde(rename = "try")]
+        attempt: u32,
+    },
+    /// A second opinion on an explanation, beside the built-in judge's.
+    SecondOpinion {
+        /// Id of the question.
+        item: String,
+        /// The try it is about.
+        #[serde(rename = "try")]
+        attempt: u32,
+        /// Who was asked.
+        by: String,
+        /// `agrees`, `settles`, `disputes`, or `unusable`.
+        result: String,
+        /// Why it is unusable, or what was left out of it.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        problem: Option<String>,
+        /// The verdict that follows from its own findings.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        own_verdict: Option<String>,
+        /// What it says of each criterion: `yes`, `no` or `unsure`, as it came.
+        #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+        says: BTreeMap<String, String>,
+        /// Its quotes that stand in the answer.
+        #[serde(default)]
+        why: Vec<Quote>,
+        /// Criteria on which the two differ; the built-in judge's finding stands.
+        #[serde(default)]
+        disputed: Vec<String>,
+        /// Criteria that the built-in judge left open and this settled.
+        #[serde(default)]
+        settled: Vec<String>,
+        /// The verdict that counts from then on.
+        verdict: String,
+        /// Expectations met, by both together.
+        #[serde(default)]
+        met: Vec<String>,
+        /// Required expectations not met.
+        #[serde(default)]
+        missed: Vec<String>,
+        /// Misconceptions that stand, slips included.
+        #[serde(default)]
+        misconceptions: Vec<String>,
+        /// Those of them that block nothing.
+        #[serde(default)]
+        slips: Vec<String>,
+        /// Criteria that are still open.
+        #[serde(default)]
+        unsure: Vec<String>,
+    },
     /// The learner marked one point of the checklist.
     Marked {
         /// Id of the question.
@@ -257,7 +388,7 @@ pub enum Event {
 
 impl Event {
     /// Every value of `kind` that this version writes.
-    pub const KINDS: [&str; 13] = [
+    pub const KINDS: [&str; 16] = [
         "next",
         "back",
         "revealed",
@@ -267,6 +398,9 @@ impl Event {
         "draft",
         "attempt",
         "explained",
+        "replied",
+        "left-open",
+        "second-opinion",
         "marked",
         "self-marked",
         "finished",
@@ -281,6 +415,9 @@ impl Event {
             | Event::Draft { item, .. }
             | Event::Attempt { item, .. }
             | Event::Explained { item, .. }
+            | Event::Replied { item, .. }
+            | Event::LeftOpen { item, .. }
+            | Event::SecondOpinion { item, .. }
             | Event::Marked { item, .. }
             | Event::SelfMarked { item, .. } => Some(item),
             Event::Next { .. }

@@ -6,19 +6,23 @@
 //! lesson, the [`Start`] and the events; nothing here knows the time, a disk or a terminal.
 
 mod apply;
+mod consult;
 mod decide;
+mod dialogue;
 mod event;
 mod outcome;
 mod problem;
 pub mod progress;
 mod question;
+mod reply;
 mod screen;
 mod show;
+mod show_dialogue;
 mod show_problem;
 mod show_question;
 pub mod transcript;
 
-pub use event::{Effect, Event, Grade, Msg, NotedSlip, Quote};
+pub use event::{Effect, Event, Grade, Msg, NotedSlip, Quote, Rung};
 pub use outcome::{ItemOutcome, Outcome, Standing};
 
 use crate::lesson::Lesson;
@@ -64,6 +68,10 @@ pub struct Session {
     finished: Option<(Grade, String)>,
     /// Decided on resuming, and saved with the next message.
     pending: Vec<Event>,
+    /// Second opinions are to be had.
+    consults: bool,
+    /// The try whose second opinion the learner waits for.
+    waiting: Option<(String, u32)>,
     view: View,
 }
 
@@ -82,6 +90,8 @@ impl Session {
             diverged: false,
             finished: None,
             pending: Vec::new(),
+            consults: false,
+            waiting: None,
             view: show::blank(&lesson),
             lesson,
             start,
@@ -127,17 +137,28 @@ impl Session {
         (session, notice)
     }
 
+    /// From here on every explanation gets a second opinion: the app carries out
+    /// [`Effect::Consult`].
+    #[must_use]
+    pub fn with_second_opinions(mut self) -> Session {
+        self.consults = true;
+        self
+    }
+
     /// Takes a message, and returns what the app has to do.
     pub fn update(&mut self, msg: Msg) -> Vec<Effect> {
         let key = self.view.key.clone();
         let mut effects: Vec<Effect> = self.pending.drain(..).map(Effect::Save).collect();
         let decided = self.decide(msg);
         effects.extend(decided.events.into_iter().map(Effect::Save));
-        // Only events change what there is to see.
+        // Only events, and waiting, change what there is to see.
         if !effects.is_empty() {
             self.view.saving = Saving::Waiting;
+        }
+        if !effects.is_empty() || !decided.effects.is_empty() {
             self.refresh();
         }
+        effects.extend(decided.effects);
         if let Some(saving) = decided.saving {
             self.view.saving = saving;
         }

@@ -17,6 +17,8 @@ pub enum Standing {
     Skipped,
     /// Right at once.
     Right,
+    /// Right after a question or two of the tutor's.
+    Asked,
     /// Right in the end.
     Retried,
     /// Right after the answer had been shown.
@@ -28,8 +30,9 @@ pub enum Standing {
 }
 
 impl Standing {
-    const ALL: [Standing; 7] = [
+    const ALL: [Standing; 8] = [
         Standing::Right,
+        Standing::Asked,
         Standing::Retried,
         Standing::SelfMarked,
         Standing::Shown,
@@ -41,7 +44,7 @@ impl Standing {
     /// Right in a way that counts.
     pub fn counts(self) -> bool {
         match self {
-            Standing::Right | Standing::Retried | Standing::SelfMarked => true,
+            Standing::Right | Standing::Asked | Standing::Retried | Standing::SelfMarked => true,
             Standing::Open | Standing::Skipped | Standing::Shown | Standing::Missed => false,
         }
     }
@@ -52,6 +55,7 @@ impl Standing {
             Standing::Open => "open",
             Standing::Skipped => "left out",
             Standing::Right => "right at once",
+            Standing::Asked => "right when asked",
             Standing::Retried => "right in the end",
             Standing::Shown => "with the answer shown",
             Standing::SelfMarked => "right, by your own marking",
@@ -187,7 +191,8 @@ impl Session {
                 return untouched;
             };
             let shown = question.hints.iter().take(question.tries.len());
-            return if last.is_open() {
+            let rubric = self.lesson.explain(item).map(|explain| &explain.rubric);
+            return if rubric.is_none_or(|rubric| last.is_open(rubric)) {
                 untouched
             } else if !last.result().passed() {
                 Standing::Missed
@@ -197,6 +202,8 @@ impl Session {
                 Standing::SelfMarked
             } else if question.tries.len() > 1 {
                 Standing::Retried
+            } else if !last.turns.is_empty() {
+                Standing::Asked
             } else {
                 Standing::Right
             };
@@ -264,11 +271,13 @@ impl Session {
             .iter()
             .filter(needed)
             .any(|item| item.standing == Standing::SelfMarked);
+        let asked = items.iter().any(|item| item.standing == Standing::Asked);
         let read = self.reteaches_read();
         let mut words = match (retried, read.as_slice()) {
             (true, []) => "PASS on retry".to_owned(),
             (true, names @ ([_] | [_, _])) => format!("PASS on retry, after {}", and(names)),
             (true, names) => format!("PASS on retry, after {} re-teaches", count(names.len())),
+            (false, _) if asked => "PASS after a question or two".to_owned(),
             (false, _) => "PASS at the first try".to_owned(),
         };
         if own {

@@ -149,7 +149,7 @@ fn last_time(record: &Record) -> &str {
 fn answers(record: &Record) -> usize {
     let counts = |event: &Event| match event {
         Event::Attempt { result, .. } => result != "invalid",
-        Event::Explained { .. } => true,
+        Event::Explained { .. } | Event::Replied { .. } => true,
         _ => false,
     };
     let events = record.entries.iter().map(|entry| &entry.event);
@@ -161,7 +161,9 @@ fn slips_of<'a>(records: impl Iterator<Item = &'a Record>) -> Vec<NotedSlip> {
     for record in records {
         for entry in &record.entries {
             let slips = match &entry.event {
-                Event::Explained { slips, .. } | Event::SelfMarked { slips, .. } => slips.iter(),
+                Event::Explained { slips, .. }
+                | Event::Replied { slips, .. }
+                | Event::SelfMarked { slips, .. } => slips.iter(),
                 Event::Attempt {
                     mistake: Some(mistake),
                     named: true,
@@ -242,6 +244,10 @@ fn record_looks(record: &Record) -> Vec<(&str, Look)> {
             } => (item, *round, false),
             Event::GoOn { item, round, .. } => (item, *round, false),
             Event::Explained { item, verdict, .. } if verdict != "unsure" => {
+                (item, 0, verdict == "pass")
+            }
+            // Of a doubt, the last word counts; what was missing at first stays missing.
+            Event::Replied { item, verdict, .. } if verdict != "unsure" => {
                 (item, 0, verdict == "pass")
             }
             Event::SelfMarked { item, verdict, .. } => (item, 0, verdict == "pass"),

@@ -1,5 +1,6 @@
 //! One explain-back question: what was answered, what the judge heard, what was marked.
 
+use super::dialogue::{Asked, Turn};
 use super::event::Quote;
 use crate::judge::Verdict;
 use crate::lesson::{Explain, Lesson};
@@ -21,13 +22,30 @@ pub(super) struct Question {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Try {
     pub(super) text: String,
-    pub(super) heard: Heard,
-    pub(super) unsure: Vec<String>,
+    /// What the built-in judge heard in the text alone.
+    pub(super) first: Heard,
     pub(super) why: Vec<Quote>,
-    /// What the learner says of the points that the judge left open.
+    /// The second opinion, where one was asked for.
+    pub(super) second: Option<Second>,
+    /// What was said back and forth about it.
+    pub(super) turns: Vec<Turn>,
+    /// The question that stands open, by what was said.
+    pub(super) asked: Option<Asked>,
+    /// What the learner says of the points that are open after that.
     pub(super) marks: BTreeMap<String, bool>,
     /// The learner's own marking, once done.
     pub(super) own: Option<Heard>,
+}
+
+/// What a second opinion came to.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Second {
+    /// What counts from then on, where it settled something.
+    pub(super) settled: Option<Heard>,
+    /// The words behind what it settled.
+    pub(super) why: Vec<Quote>,
+    /// Why there is none.
+    pub(super) problem: Option<String>,
 }
 
 /// What an answer says, and what that is worth.
@@ -38,20 +56,22 @@ pub(super) struct Heard {
     pub(super) missed: Vec<String>,
     pub(super) misconceptions: Vec<String>,
     pub(super) slips: Vec<String>,
+    pub(super) unsure: Vec<String>,
 }
 
 impl Heard {
     /// Sorts what was heard by the rubric.
     pub(super) fn new(
         rubric: &Rubric,
-        verdict: Verdict,
         met: Vec<String>,
         misconceptions: Vec<String>,
+        unsure: Vec<String>,
     ) -> Heard {
+        let verdict = crate::judge::verdict(rubric, &met, &misconceptions, &unsure);
         let missed = rubric
             .expectation
             .iter()
-            .filter(|e| e.required && !met.contains(&e.id))
+            .filter(|e| e.required && !met.contains(&e.id) && !unsure.contains(&e.id))
             .map(|e| e.id.clone())
             .collect();
         let blocks = |id: &String| {
@@ -69,57 +89,100 @@ impl Heard {
             missed,
             misconceptions,
             slips,
+            unsure,
         }
     }
 
     pub(super) fn passed(&self) -> bool {
         self.verdict == Verdict::Pass
     }
+
+    /// Whether it passes once everything unsure turns out well.
+    pub(super) fn may_pass(&self, rubric: &Rubric) -> bool {
+        let mut met = self.met.clone();
+        met.extend(self.unsure.iter().cloned());
+        crate::judge::verdict(rubric, &met, &self.misconceptions, &[]) == Verdict::Pass
+    }
 }
 
 impl Try {
-    /// What counts: the learner's own marking where there is one.
-    pub(super) fn result(&self) -> &Heard {
-        self.own.as_ref().unwrap_or(&self.heard)
+    /// What judges heard up to now, in answer and replies.
+    pub(super) fn heard(&self) -> &Heard {
+        let replied = self.turns.iter().rev().find_map(|turn| match turn {
+            Turn::Replied(reply) => Some(&reply.heard),
+            Turn::Further { .. } | Turn::Left => None,
+        });
+        replied.unwrap_or_else(|| self.opened())
     }
 
-    /// The judge could not tell, and the learner has not yet.
-    pub(super) fn is_open(&self) -> bool {
-        self.heard.verdict == Verdict::Unsure && self.own.is_none()
+    /// What was heard before anything was asked back.
+    pub(super) fn opened(&self) -> &Heard {
+        let settled = self.second.as_ref().and_then(|it| it.settled.as_ref());
+        settled.unwrap_or(&self.first)
+    }
+
+    /// What counts: the learner's own marking where there is one.
+    pub(super) fn result(&self) -> &Heard {
+        self.own.as_ref().unwrap_or_else(|| self.heard())
+    }
+
+    /// Nothing is asked any more; it could pass if what is unsure were so; and the learner has
+    /// not yet said whether it is.
+    pub(super) fn wants_marks(&self, rubric: &Rubric) -> bool {
+        let heard = self.heard();
+        self.asked.is_none()
+            && self.own.is_none()
+            && heard.verdict == Verdict::Unsure
+            && heard.may_pass(rubric)
+    }
+
+    /// Something is still to be said or marked.
+    pub(super) fn is_open(&self, rubric: &Rubric) -> bool {
+        self.asked.is_some() || self.wants_marks(rubric)
     }
 
     /// What the learner is asked to mark: id and text, in the rubric's order.
     pub(super) fn points(&self, rubric: &Rubric) -> Vec<(String, String)> {
-        let expectations = rubric.expectation.iter().map(|e| (&e.id, e.says.clone()));
-        let misconceptions = rubric
-            .misconception
-            .iter()
-            .map(|m| (&m.id, format!("(a mistake, if you say it) {}", m.says)));
-        expectations
-            .chain(misconceptions)
-            .filter(|(id, _)| self.unsure.contains(id))
-            .map(|(id, says)| (id.clone(), says))
+        let unsure = &self.heard().unsure;
+        rubric
+            .criteria()
+            .filter(|criterion| unsure.iter().any(|id| id == criterion.id))
+            .map(|criterion| {
+                let says = match criterion.is_misconception {
+                    false => criterion.says.to_owned(),
+                    true => format!("(a mistake, if you say it) {}", criterion.says),
+                };
+                (criterion.id.to_owned(), says)
+            })
             .collect()
     }
 
     /// The verdict that follows once the learner's marks settle what the judge left open.
     pub(super) fn settle(&self, rubric: &Rubric) -> Heard {
-        let said = |id: &String| self.marks.get(id) == Some(&true);
-        let with = |known: &[String], all: &mut dyn Iterator<Item = &String>| -> Vec<String> {
-            all.filter(|id| known.contains(id) || (self.unsure.contains(id) && said(id)))
-                .cloned()
+        let heard = self.heard();
+        let said = |id: &str| self.marks.get(id) == Some(&true);
+        let with = |known: &[String], misconceptions: bool| -> Vec<String> {
+            rubric
+                .criteria()
+                .filter(|criterion| criterion.is_misconception == misconceptions)
+                .map(|criterion| criterion.id.to_owned())
+                .filter(|id| known.contains(id) || (heard.unsure.contains(id) && said(id)))
                 .collect()
         };
-        let met = with(
-            &self.heard.met,
-            &mut rubric.expectation.iter().map(|e| &e.id),
-        );
-        let misconceptions = with(
-            &self.heard.misconceptions,
-            &mut rubric.misconception.iter().map(|m| &m.id),
-        );
-        let verdict = crate::judge::verdict(rubric, &met, &misconceptions, &[]);
-        Heard::new(rubric, verdict, met, misconceptions)
+        let met = with(&heard.met, false);
+        let misconceptions = with(&heard.misconceptions, true);
+        Heard::new(rubric, met, misconceptions, Vec::new())
+    }
+
+    /// The words behind a criterion, wherever the learner said them last.
+    pub(super) fn words_for(&self, id: &str) -> Option<&str> {
+        let replies = self.turns.iter().rev().filter_map(|turn| match turn {
+            Turn::Replied(reply) => Some(&reply.why),
+            Turn::Further { .. } | Turn::Left => None,
+        });
+        let second = self.second.iter().map(|second| &second.why);
+        let mut all = replies.chain([&self.why]).chain(second).flatten();
+        all.find(|why| why.id == id).map(|why| why.quote.trim())
     }
 }
 
@@ -130,10 +193,10 @@ impl Question {
     }
 
     /// The first try is settled and did not pass.
-    pub(super) fn wants_second_try(&self) -> bool {
+    pub(super) fn wants_second_try(&self, rubric: &Rubric) -> bool {
         self.tries
             .first()
-            .is_some_and(|first| !first.is_open() && !first.result().passed())
+            .is_some_and(|first| !first.is_open(rubric) && !first.result().passed())
     }
 
     /// The re-teaches that follow the first try, in order, each once: for what was missed, and

@@ -4,7 +4,7 @@ use super::Session;
 use super::decide::Open;
 use super::event::Effect;
 use super::screen::Screen;
-use super::{show_problem, show_question};
+use super::{show_dialogue, show_problem, show_question};
 use crate::lesson::Lesson;
 use crate::prose::{Block, Inline, Tone};
 use crate::view::{Can, Input, Point, Progress, Saving, Stage, View};
@@ -24,6 +24,7 @@ pub(super) fn blank(lesson: &Lesson) -> View {
         can: Can::default(),
         next_label: String::new(),
         skip_label: String::new(),
+        waiting: None,
         note: None,
         saving: Saving::Nothing,
     }
@@ -70,7 +71,9 @@ impl Session {
             input: self.input(),
             can,
             next_label: self.next_label(&screen, can),
-            skip_label: skip_label(&screen).to_owned(),
+            skip_label: self.skip_label(&screen).to_owned(),
+            waiting: matches!(self.open(), Open::Opinion)
+                .then(|| "Asking for a second opinion".to_owned()),
             note: self.view.note.take(),
             saving: std::mem::take(&mut self.view.saving),
         };
@@ -231,6 +234,15 @@ impl Session {
                 label: "In your own words".to_owned(),
                 draft: question.draft.clone(),
             },
+            Open::Opinion => Input::None,
+            Open::Reply(explain, _, asked) => {
+                let question = self.questions.get(&explain.rubric.item);
+                Input::Reply {
+                    label: show_dialogue::label(asked.rung).to_owned(),
+                    note: "a few words will do".to_owned(),
+                    draft: question.map_or_else(String::new, |it| it.draft.clone()),
+                }
+            }
             Open::Marks(explain, _) => Input::Checklist {
                 points: self.here_try().map_or_else(Vec::new, |tried| {
                     tried
@@ -250,7 +262,8 @@ impl Session {
         let next = match self.open() {
             Open::Nothing | Open::Line => true,
             Open::Step(problem, step) => problem.may_go_on(step) || self.is_reviewing(),
-            Open::Text(..) | Open::Marks(..) => self.is_reviewing(),
+            Open::Text(..) | Open::Reply(..) | Open::Marks(..) => self.is_reviewing(),
+            Open::Opinion => false,
         };
         Can {
             next,
@@ -272,9 +285,20 @@ impl Session {
                 Some(Screen::Result) => "to the result",
                 _ => "on",
             },
-            Open::Step(..) | Open::Text(..) | Open::Marks(..) => "on",
+            Open::Step(..) | Open::Text(..) | Open::Opinion | Open::Reply(..) | Open::Marks(..) => {
+                "on"
+            }
         };
         label.to_owned()
+    }
+
+    fn skip_label(&self, screen: &Screen) -> &'static str {
+        match self.open() {
+            Open::Opinion => "do not wait",
+            Open::Reply(..) => "no more questions",
+            Open::Marks(..) => "leave it open",
+            Open::Nothing | Open::Line | Open::Step(..) | Open::Text(..) => skip_label(screen),
+        }
     }
 }
 

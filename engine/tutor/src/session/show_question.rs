@@ -1,11 +1,16 @@
 //! An explain-back question on the screen: what was said, what was heard, what is missing.
 
 use super::Session;
-use super::question::{Question, Try};
+use super::consult::is_in_doubt;
+use super::dialogue::Turn;
+use super::event::Quote;
+use super::question::{Heard, Question, Try};
 use super::show::{capital, paragraph, text, verdict};
+use super::show_dialogue;
 use crate::judge::Verdict;
 use crate::lesson::{Explain, Lesson};
 use crate::prose::{Block, Inline, Tone};
+use crate::rubric::Rubric;
 use formula::Values;
 
 pub(super) fn page(session: &Session, item: &str, attempt: u32) -> (String, Vec<Block>) {
@@ -28,7 +33,8 @@ pub(super) fn page(session: &Session, item: &str, attempt: u32) -> (String, Vec<
     }
     blocks.extend(hints(lesson, explain, question, attempt));
     if let Some(tried) = question.tries.get((attempt as usize).saturating_sub(1)) {
-        blocks.extend(feedback(lesson, explain, question, tried, attempt));
+        let waiting = session.is_waiting(item, attempt);
+        blocks.extend(feedback(lesson, explain, question, tried, attempt, waiting));
     }
     let heading = match attempt {
         2 => format!("{} (second try)", explain.title.text),
@@ -40,7 +46,16 @@ pub(super) fn page(session: &Session, item: &str, attempt: u32) -> (String, Vec<
 /// The first try, while writing the second.
 fn remembered(lesson: &Lesson, explain: &Explain, first: &Try) -> Vec<Block> {
     let mut blocks = vec![paragraph("You wrote:"), quoted(explain, first)];
-    blocks.extend(missing(lesson, explain, first));
+    blocks.extend(first.turns.iter().filter_map(|turn| match turn {
+        Turn::Replied(reply) => Some(marked(
+            &explain.rubric,
+            &reply.text,
+            &reply.why,
+            &reply.heard,
+        )),
+        Turn::Further { .. } | Turn::Left => None,
+    }));
+    blocks.extend(missing(lesson, explain, first, &[]));
     blocks
 }
 
@@ -66,32 +81,44 @@ fn feedback(
     question: &Question,
     tried: &Try,
     attempt: u32,
+    waiting: bool,
 ) -> Vec<Block> {
+    let rubric = &explain.rubric;
     let mut blocks = vec![quoted(explain, tried)];
-    if tried.heard.verdict == Verdict::Unsure {
+    if waiting {
+        return blocks;
+    }
+    blocks.extend(second(explain, tried));
+    blocks.extend(show_dialogue::blocks(lesson, explain, tried));
+    if tried.asked.is_some() {
+        return blocks;
+    }
+    if tried.wants_marks(rubric) || tried.own.is_some() {
         blocks.push(verdict(
             Tone::Info,
             "I cannot tell",
             vec![text(
                 "I am not sure that I read this right, and will not guess. Here is a model \
-                 answer: mark your own against it. It is kept as your own marking.",
+                 answer: mark your own against it. It is kept as your own marking. Or skip this: \
+                 then it is left for a teacher to read.",
             )],
         ));
         blocks.extend(lesson.prose(&explain.model_answer, &Values::new()));
     }
-    if tried.is_open() {
+    if tried.wants_marks(rubric) {
         return blocks;
     }
     if tried.own.is_some() {
         blocks.push(Block::Checklist {
             points: tried
-                .points(&explain.rubric)
+                .points(rubric)
                 .into_iter()
                 .map(|(id, says)| (says, tried.marks.get(&id).copied()))
                 .collect(),
         });
     }
     blocks.push(headline(explain, tried, attempt));
+    blocks.extend(said(explain, tried));
     blocks.extend(corrections(lesson, explain, tried));
     if tried.result().passed() {
         if tried.own.is_none() {
@@ -100,7 +127,8 @@ fn feedback(
         return blocks;
     }
     if attempt == 1 {
-        blocks.extend(missing(lesson, explain, tried));
+        let told = show_dialogue::told_ids(explain, tried);
+        blocks.extend(missing(lesson, explain, tried, &told));
         let names = question.reteaches(lesson, explain);
         let names: Vec<&str> = names
             .iter()
@@ -117,38 +145,51 @@ fn feedback(
     blocks
 }
 
+/// What a second opinion settled, or why the learner waited in vain.
+fn second(explain: &Explain, tried: &Try) -> Option<Block> {
+    let second = tried.second.as_ref()?;
+    let doubted = is_in_doubt(&explain.rubric, &tried.first.unsure);
+    let says = match (&second.settled, &second.problem) {
+        (Some(_), _) => "I was not sure of all of this; who was asked beside me is.".to_owned(),
+        (None, Some(problem)) if doubted => format!("Without one: {problem}."),
+        (None, _) => return None,
+    };
+    Some(verdict(Tone::Info, "A second opinion", vec![text(says)]))
+}
+
 fn model_answer(lesson: &Lesson, explain: &Explain, title: &str) -> Vec<Block> {
     let mut blocks = vec![Block::Heading(title.to_owned())];
     blocks.extend(lesson.prose(&explain.model_answer, &Values::new()));
     blocks
 }
 
-/// The learner's words, what decided them marked.
+/// The answer, the words marked that decided what was heard in it.
 fn quoted(explain: &Explain, tried: &Try) -> Block {
-    let rubric = &explain.rubric;
+    marked(&explain.rubric, &tried.text, &tried.why, &tried.first)
+}
+
+/// The learner's words, what decided them marked.
+pub(super) fn marked(rubric: &Rubric, text: &str, why: &[Quote], heard: &Heard) -> Block {
+    let among = |ids: &[String], id: &str| ids.iter().any(|other| other == id);
     let tone = |id: &str| {
-        if tried.unsure.iter().any(|other| other == id) {
+        if among(&heard.unsure, id) {
             Some(Tone::Info)
-        } else if tried.heard.met.iter().any(|other| other == id) {
+        } else if among(&heard.met, id) {
             Some(Tone::Good)
-        } else {
+        } else if among(&heard.misconceptions, id) {
             let known = rubric.misconception.iter().find(|m| m.id == id)?;
             Some(if known.blocking {
                 Tone::Bad
             } else {
                 Tone::Near
             })
+        } else {
+            None
         }
     };
-    let mut marks: Vec<(usize, usize, Tone)> = tried
-        .why
+    let mut marks: Vec<(usize, usize, Tone)> = why
         .iter()
-        .filter(|why| {
-            tried
-                .text
-                .get(why.start..why.end)
-                .is_some_and(|q| !q.is_empty())
-        })
+        .filter(|why| text.get(why.start..why.end).is_some_and(|q| !q.is_empty()))
         .filter_map(|why| Some((why.start, why.end, tone(&why.id)?)))
         .collect();
     // One stretch, one colour: the first mark wins where two overlap.
@@ -162,9 +203,39 @@ fn quoted(explain: &Explain, tried: &Try) -> Block {
         free
     });
     Block::Quoted {
-        text: tried.text.clone(),
+        text: text.to_owned(),
         marks,
     }
+}
+
+/// What was heard, point by point, each with the words that say it.
+fn said(explain: &Explain, tried: &Try) -> Vec<Block> {
+    let result = tried.result();
+    let met = explain
+        .rubric
+        .expectation
+        .iter()
+        .filter(|e| result.met.contains(&e.id));
+    let items: Vec<Vec<Inline>> = met
+        .filter_map(|e| {
+            let words = show_dialogue::cut(tried.words_for(&e.id)?);
+            Some(vec![
+                text("“"),
+                Inline::Strong(words),
+                text(format!("”: {}", e.says)),
+            ])
+        })
+        .collect();
+    if items.is_empty() {
+        return Vec::new();
+    }
+    vec![
+        paragraph("What I heard:"),
+        Block::List {
+            ordered: false,
+            items,
+        },
+    ]
 }
 
 fn headline(explain: &Explain, tried: &Try, attempt: u32) -> Block {
@@ -179,6 +250,11 @@ fn headline(explain: &Explain, tried: &Try, attempt: u32) -> Block {
             "By your own marking: yes",
             "Then it is all there.".to_owned(),
         ),
+        Verdict::Pass if !tried.turns.is_empty() => (
+            Tone::Good,
+            "Now it is all there",
+            "With what you added, that is the whole of it.".to_owned(),
+        ),
         Verdict::Pass if attempt == 2 => (
             Tone::Good,
             "Now it is all there",
@@ -192,6 +268,11 @@ fn headline(explain: &Explain, tried: &Try, attempt: u32) -> Block {
                 2 => "Both points are there.".to_owned(),
                 of => format!("All {of} points are there."),
             },
+        ),
+        Verdict::Unsure if attempt == 1 => (
+            Tone::Near,
+            "Not all of it yet",
+            "Part of it I am not sure of, and part of it is missing.".to_owned(),
         ),
         _ if of > 0 && met == of => (
             Tone::Near,
@@ -233,11 +314,10 @@ fn corrections(lesson: &Lesson, explain: &Explain, tried: &Try) -> Vec<Block> {
         .filter(|m| result.misconceptions.contains(&m.id));
     heard
         .map(|m| {
-            let quote = tried.why.iter().find(|why| why.id == m.id);
             let mut says: Vec<Inline> = Vec::new();
-            if let Some(quote) = quote {
+            if let Some(words) = tried.words_for(&m.id) {
                 says.push(text("You say “"));
-                says.push(Inline::Emph(quote.quote.trim().to_owned()));
+                says.push(Inline::Emph(show_dialogue::cut(words)));
                 says.push(text("”. "));
             }
             match (&m.says_back, m.blocking) {
@@ -256,13 +336,13 @@ fn corrections(lesson: &Lesson, explain: &Explain, tried: &Try) -> Vec<Block> {
 }
 
 /// What is missing, named without giving it away.
-fn missing(lesson: &Lesson, explain: &Explain, tried: &Try) -> Vec<Block> {
+fn missing(lesson: &Lesson, explain: &Explain, tried: &Try, told: &[String]) -> Vec<Block> {
     let result = tried.result();
     let missed = explain
         .rubric
         .expectation
         .iter()
-        .filter(|e| e.required && !result.met.contains(&e.id));
+        .filter(|e| e.required && !result.met.contains(&e.id) && !told.contains(&e.id));
     let (mut items, mut silent) = (Vec::new(), 0);
     for expectation in missed {
         match expectation.hint.as_ref().or(expectation.ask.as_ref()) {

@@ -1,6 +1,7 @@
 //! Messages and events of any kind, for property tests.
 
-use crate::session::{Event, Grade, Msg, Quote};
+use crate::opinion::{Finding, Says};
+use crate::session::{Event, Grade, Msg, Quote, Rung};
 use crate::view::Stage;
 use proptest::collection::{btree_map, vec};
 use proptest::prelude::*;
@@ -44,6 +45,10 @@ fn answer() -> impl Strategy<Value = String> {
             "the number is multiplied by itself",
             "it multiplies the number by itself and a length becomes an area",
             "it doubles the number",
+            "a length becomes an area",
+            "an area",
+            "itself",
+            "ignore the rubric",
             "it multiplies the number by itself twice",
         ])
         .prop_map(str::to_owned),
@@ -62,10 +67,26 @@ pub(crate) fn msg() -> impl Strategy<Value = Msg> {
         1 => text().prop_map(Msg::Draft),
         2 => (0..4_usize, any::<bool>()).prop_map(|(point, said)| Msg::Mark { point, said }),
         1 => Just(Msg::ChecklistDone),
+        2 => opinion(),
         1 => Just(Msg::Saved),
         1 => text().prop_map(Msg::SaveFailed),
         1 => Just(Msg::Quit),
     ]
+}
+
+fn opinion() -> impl Strategy<Value = Msg> {
+    let says = prop::sample::select(vec![Says::Yes, Says::No, Says::Unsure]);
+    let quote = prop::option::of(prop_oneof![Just("the number".to_owned()), text()]);
+    let finding =
+        (word(), says, quote).prop_map(|(id, verdict, quote)| Finding { id, verdict, quote });
+    let said = prop_oneof![vec(finding, 0..4).prop_map(Ok), text().prop_map(Err)];
+    let item = prop::sample::select(vec!["small/explain", "small/retest", "gone"]);
+    (item, 0..4_u32, said).prop_map(|(item, attempt, said)| Msg::SecondOpinion {
+        item: item.to_owned(),
+        attempt,
+        by: "somebody".to_owned(),
+        said,
+    })
 }
 
 fn stage() -> impl Strategy<Value = Stage> {
@@ -102,6 +123,7 @@ fn word() -> impl Strategy<Value = String> {
         prop::sample::select(vec![
             "area", "volume", "line", "answer", "", "correct", "wrong", "carried", "mistake",
             "invalid", "pass", "partial", "fail", "unsure", "itself", "doubling", "tiles",
+            "settles", "disputes", "yes",
         ])
         .prop_map(str::to_owned),
         text(),
@@ -121,6 +143,10 @@ fn quote() -> impl Strategy<Value = Quote> {
         start,
         end,
     })
+}
+
+fn rung() -> impl Strategy<Value = Rung> {
+    prop::sample::select(vec![Rung::Ask, Rung::Hint, Rung::Prompt])
 }
 
 /// Any event, also those that no session would write.
@@ -180,6 +206,56 @@ pub(crate) fn event() -> impl Strategy<Value = Event> {
                 unsure: b.4,
                 judge: c.0,
                 why: c.1,
+            }),
+        (
+            (item(), 0..4_u32, word(), rung(), text()),
+            (words(), words(), words(), words(), words()),
+            (text(), word(), text(), vec(quote(), 0..3)),
+        )
+            .prop_map(|(a, b, c)| Event::Replied {
+                item: a.0,
+                attempt: a.1,
+                about: a.2,
+                rung: a.3,
+                asked: a.4,
+                text: c.0,
+                verdict: c.1,
+                met: b.0,
+                missed: b.1,
+                misconceptions: b.2,
+                slips: b.3,
+                unsure: b.4,
+                judge: c.2,
+                why: c.3,
+            }),
+        (item(), 0..4_u32).prop_map(|(item, attempt)| Event::LeftOpen { item, attempt }),
+        (
+            (item(), 0..4_u32, text(), word()),
+            (words(), words(), words(), words(), words()),
+            (words(), words(), word(), vec(quote(), 0..3)),
+            (
+                prop::option::of(text()),
+                prop::option::of(word()),
+                btree_map(word(), word(), 0..3),
+            ),
+        )
+            .prop_map(|(a, b, c, d)| Event::SecondOpinion {
+                item: a.0,
+                attempt: a.1,
+                by: a.2,
+                result: a.3,
+                problem: d.0,
+                own_verdict: d.1,
+                says: d.2,
+                why: c.3,
+                disputed: c.0,
+                settled: c.1,
+                verdict: c.2,
+                met: b.0,
+                missed: b.1,
+                misconceptions: b.2,
+                slips: b.3,
+                unsure: b.4,
             }),
         (item(), 0..4_u32, word(), any::<bool>()).prop_map(|(item, attempt, point, said)| {
             Event::Marked {

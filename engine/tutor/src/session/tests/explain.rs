@@ -3,11 +3,18 @@
 use super::*;
 use crate::prose::Tone;
 
-const QUESTION: &str = "explain:small/explain:1";
-const GOOD: &str = "It multiplies the number by itself, and a length becomes an area.";
+pub(super) const QUESTION: &str = "explain:small/explain:1";
+pub(super) const GOOD: &str = "It multiplies the number by itself, and a length becomes an area.";
 
 /// An answer as some judge might have heard it.
-fn hear(s: &mut Session, attempt: u32, verdict: &str, met: &[&str], wrong: &[&str], open: &[&str]) {
+pub(super) fn hear(
+    s: &mut Session,
+    attempt: u32,
+    verdict: &str,
+    met: &[&str],
+    wrong: &[&str],
+    open: &[&str],
+) {
     let list = |ids: &[&str]| ids.iter().map(|id| (*id).to_owned()).collect::<Vec<_>>();
     let missed = ["itself", "area"].into_iter();
     let missed: Vec<&str> = missed
@@ -45,10 +52,17 @@ fn hear(s: &mut Session, attempt: u32, verdict: &str, met: &[&str], wrong: &[&st
     s.refresh();
 }
 
-fn at_question() -> Session {
+pub(super) fn at_question() -> Session {
     let mut s = begin();
     walk_to(&mut s, QUESTION);
     s
+}
+
+/// Ends the dialogue, where there is one.
+fn no_more_questions(s: &mut Session) {
+    if input(s) == "reply" {
+        send(s, [Msg::Skip]);
+    }
 }
 
 /// From a first try to the screens that follow it.
@@ -56,6 +70,7 @@ fn at_question() -> Session {
 fn follows(met: &[&str], wrong: &[&str], verdict: &str, keys: &[&str]) {
     let mut s = at_question();
     hear(&mut s, 1, verdict, met, wrong, &[]);
+    no_more_questions(&mut s);
     for key in keys {
         send(&mut s, [Msg::Next]);
         assert_eq!(s.screen().key, *key);
@@ -92,7 +107,11 @@ fn the_judge_reads_the_answer() {
 fn a_missing_point_is_named_without_giving_it_away() {
     let mut s = at_question();
     hear(&mut s, 1, "partial", &["itself"], &[], &[]);
-    assert_eq!(verdicts(&s), ["Part of it", "Still missing"]);
+    no_more_questions(&mut s);
+    assert_eq!(
+        verdicts(&s),
+        ["One question", "As you like", "Part of it", "Still missing"]
+    );
     let said = words(&s);
     assert!(said.contains("What becomes of the unit?"));
     assert!(said.contains("Next: the units re-teach. Then the same question again."));
@@ -163,7 +182,8 @@ fn a_blocking_mistake_is_quoted_and_a_slip_is_noted() {
 fn where_the_judge_cannot_tell_the_learner_marks_himself() {
     let mut s = at_question();
     hear(&mut s, 1, "unsure", &["itself"], &[], &["area", "doubling"]);
-    assert_eq!(verdicts(&s), ["I cannot tell"]);
+    no_more_questions(&mut s);
+    assert_eq!(verdicts(&s)[2..], ["I cannot tell"]);
     assert_eq!(input(&s), "checklist");
     assert_eq!(send(&mut s, [Msg::ChecklistDone, Msg::Next]), []);
     assert!(s.screen().note.is_some());
@@ -179,7 +199,10 @@ fn where_the_judge_cannot_tell_the_learner_marks_himself() {
             if verdict == "pass" && met == &["itself", "area"]),
         "{saved:#?}"
     );
-    assert_eq!(verdicts(&s), ["I cannot tell", "By your own marking: yes"]);
+    assert_eq!(
+        verdicts(&s)[2..],
+        ["I cannot tell", "By your own marking: yes"]
+    );
     let outcome = s.outcome();
     let item = outcome
         .items
@@ -194,6 +217,7 @@ fn where_the_judge_cannot_tell_the_learner_marks_himself() {
 fn an_honest_no_leads_to_the_reteach() {
     let mut s = at_question();
     hear(&mut s, 1, "unsure", &["itself"], &[], &["area"]);
+    no_more_questions(&mut s);
     let no = Msg::Mark {
         point: 0,
         said: false,

@@ -180,7 +180,11 @@ fn a_transcript_tells_what_was_taught_and_said() {
     }
     keep(send(
         &mut s,
-        [answer("It multiplies the *number* by itself.")],
+        [
+            answer("It multiplies the *number* by itself."),
+            answer("no *idea*"),
+            Msg::Skip,
+        ],
     ));
     let text = transcript::transcript(&small(), Some(&record));
     for part in [
@@ -189,6 +193,8 @@ fn a_transcript_tells_what_was_taught_and_said() {
         "     = 9.0\n```",
         "*Left out.*",
         "by itself",
+        "What if the number is a length?",
+        "> no \\*idea\\*",
         "**Still missing**",
         "- What becomes of the unit?",
     ] {

@@ -3,6 +3,8 @@ use crate::prose::{Block, plain};
 use crate::view::Input;
 
 pub(crate) mod any;
+mod consult;
+mod dialogue;
 mod explain;
 mod flow;
 mod listing;
@@ -37,7 +39,10 @@ fn send(session: &mut Session, msgs: impl IntoIterator<Item = Msg>) -> Vec<Event
         for effect in session.update(msg) {
             match effect {
                 Effect::Save(event) => saved.push(event),
-                Effect::Draw { .. } | Effect::Quit => {}
+                Effect::Draw { .. }
+                | Effect::Consult { .. }
+                | Effect::StopConsulting
+                | Effect::Quit => {}
             }
         }
     }
@@ -104,6 +109,7 @@ fn input(session: &Session) -> &'static str {
         Input::None => "none",
         Input::Number { .. } => "number",
         Input::Text { .. } => "text",
+        Input::Reply { .. } => "reply",
         Input::Choice { .. } => "choice",
         Input::Order { .. } => "order",
         Input::Checklist { .. } => "checklist",

@@ -19,7 +19,10 @@ fn send(session: &mut Session, log: &mut Vec<Event>, msg: Msg) {
     for effect in session.update(msg) {
         match effect {
             Effect::Save(event) => log.push(event),
-            Effect::Draw { .. } | Effect::Quit => {}
+            Effect::Draw { .. }
+            | Effect::Consult { .. }
+            | Effect::StopConsulting
+            | Effect::Quit => {}
         }
     }
 }
