@@ -288,6 +288,9 @@ pub struct Render {
     pub size: u32,
     #[arg(long, value_enum, default_value_t)]
     pub backend: Backend,
+    /// What the CPU computes in; a graphics processor computes in f32
+    #[arg(long, value_enum, default_value_t)]
+    pub precision: Precision,
     /// Draw again what is already there
     #[arg(long)]
     pub force: bool,

@@ -1,6 +1,6 @@
 //! Where the time of a picture goes: `cargo run --release -p renders --example timing -- [SIZE]`.
 
-use renders::{Backend, Fingerprint, Options, Scene, raw, render};
+use renders::{Backend, Fingerprint, Options, Precision, Scene, raw, render};
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
@@ -56,6 +56,16 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let cancel = AtomicBool::new(false);
     let picture = render(&fingerprint, &options, &cancel)?;
     time("panels, raw values", || drop(raw(&fingerprint, &options)));
+    let narrow = Options {
+        precision: Precision::F32,
+        ..options
+    };
+    time("panels, raw values, f32", || {
+        drop(raw(&fingerprint, &narrow))
+    });
+    time("picture, f32", || {
+        drop(render(&fingerprint, &narrow, &cancel))
+    });
     let all = Options {
         skip: false,
         ..options

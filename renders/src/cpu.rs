@@ -1,10 +1,10 @@
-//! Both formulas on the CPU, in f64, a block of points at a time.
+//! Both formulas on the CPU, in f64 or f32, a block of points at a time.
 
-use crate::Fingerprint;
 use crate::error::Error;
-use crate::plan::{Plan, program, settled};
+use crate::plan::{Plan, inputs, settled};
 use crate::sample::{Input, Samples};
 use crate::shade::Values;
+use crate::{Fingerprint, Precision};
 use formula::{Column, Expr, Program, Scratch};
 use std::cell::RefCell;
 
@@ -13,47 +13,53 @@ const BLOCK: usize = 1024;
 
 thread_local! {
     static SCRATCH: RefCell<Scratch> = RefCell::new(Scratch::new());
+    static NARROW: RefCell<Vec<f32>> = const { RefCell::new(Vec::new()) };
 }
 
-/// Both formulas compiled for one scene.
+/// Both formulas compiled for one scene, into one program: what they share is computed once.
 pub(crate) struct Cpu {
-    right: Program,
-    second: Second,
+    program: Program,
+    /// The second value is the wrong one over the right one.
+    second_is_ratio: bool,
     constants: Vec<f64>,
-}
-
-/// Where the wrong value comes from.
-enum Second {
-    /// Its own formula.
-    Wrong(Program),
-    /// The right value times this.
-    Ratio(Program),
+    precision: Precision,
 }
 
 impl Cpu {
-    pub fn new(fingerprint: &Fingerprint<'_>, plan: &Plan) -> Result<Self, Error> {
+    pub fn new(
+        fingerprint: &Fingerprint<'_>,
+        plan: &Plan,
+        precision: Precision,
+    ) -> Result<Self, Error> {
         fingerprint.scene.check()?;
-        let compile = |which, expr: &Expr| {
-            let expr = match plan.fold {
-                true => settled(fingerprint, expr),
-                false => expr.clone(),
-            };
-            program(fingerprint, &expr).map_err(|error| Error::Formula { which, error })
-        };
-        let right = compile("right", fingerprint.right)?;
-        let wrong = compile("wrong", fingerprint.wrong)?;
-        Ok(Self {
+        let Fingerprint {
+            library,
             right,
-            second: match &plan.ratio {
-                Some(ratio) => Second::Ratio(compile("wrong", ratio)?),
-                None => Second::Wrong(wrong),
-            },
-            constants: fingerprint
-                .scene
-                .constants()
-                .into_iter()
-                .map(|(_, value)| value)
-                .collect(),
+            wrong,
+            scene,
+            ..
+        } = fingerprint;
+        let constants = scene.constants();
+        let inputs = inputs(&constants);
+        // One by one, so that an error says which of them it is in.
+        for (which, expr) in [("right", right), ("wrong", wrong)] {
+            let compiled = library.compile(expr, &inputs);
+            compiled.map_err(|error| Error::Formula { which, error })?;
+        }
+        let folded = |expr: &Expr| match plan.fold {
+            true => settled(fingerprint, expr),
+            false => expr.clone(),
+        };
+        let (right, second) = (folded(right), folded(plan.ratio.as_ref().unwrap_or(wrong)));
+        let program = library.compile_all(&[&right, &second], &inputs);
+        Ok(Self {
+            program: program.map_err(|error| Error::Formula {
+                which: "wrong",
+                error,
+            })?,
+            second_is_ratio: plan.ratio.is_some(),
+            constants: constants.iter().map(|(_, value)| *value).collect(),
+            precision,
         })
     }
 
@@ -61,29 +67,61 @@ impl Cpu {
         let count = samples.len();
         let mut right = vec![0.0; count];
         let mut second = vec![0.0; count];
-        let program = match &self.second {
-            Second::Wrong(program) | Second::Ratio(program) => program,
-        };
         for start in (0..count).step_by(BLOCK) {
             let range = start..(start + BLOCK).min(count);
-            let columns: Vec<Column<'_, f64>> = samples
-                .inputs(&range)
-                .into_iter()
-                .map(|input| match input {
-                    Input::Uniform(value) => Column::Uniform(value),
-                    Input::Varying(values) => Column::Varying(values),
-                })
-                .chain(self.constants.iter().map(|&value| Column::Uniform(value)))
-                .collect();
-            SCRATCH.with_borrow_mut(|scratch| {
-                self.right
-                    .eval_block_f64(&columns, &mut right[range.clone()], scratch);
-                program.eval_block_f64(&columns, &mut second[range.clone()], scratch);
+            let inputs = samples.inputs(&range);
+            let outs = [&mut right[range.clone()], &mut second[range]];
+            SCRATCH.with_borrow_mut(|scratch| match self.precision {
+                Precision::F64 => self.block(&inputs, outs, scratch),
+                Precision::F32 => self.narrow_block(&inputs, outs, scratch),
             });
         }
-        match &self.second {
-            Second::Wrong(_) => Values::of_both(right, second),
-            Second::Ratio(_) => Values::of_ratio(right, second),
+        match self.second_is_ratio {
+            false => Values::of_both(right, second),
+            true => Values::of_ratio(right, second),
         }
+    }
+
+    fn block(&self, inputs: &[Input<'_>], mut outs: [&mut [f64]; 2], scratch: &mut Scratch) {
+        let columns = inputs.iter().map(|input| match input {
+            Input::Uniform(value) => Column::Uniform(*value),
+            Input::Varying(values) => Column::Varying(values),
+        });
+        let constants = self.constants.iter().map(|&value| Column::Uniform(value));
+        let columns: Vec<Column<'_, f64>> = columns.chain(constants).collect();
+        self.program.eval_blocks_f64(&columns, &mut outs, scratch);
+    }
+
+    /// The same with every operation in f32.
+    fn narrow_block(&self, inputs: &[Input<'_>], outs: [&mut [f64]; 2], scratch: &mut Scratch) {
+        let count = outs[0].len();
+        NARROW.with_borrow_mut(|memory| {
+            memory.resize((inputs.len() + outs.len()) * count, 0.0);
+            let (values, results) = memory.split_at_mut(inputs.len() * count);
+            for (narrow, input) in values.chunks_exact_mut(count).zip(inputs) {
+                if let Input::Varying(wide) = input {
+                    for (narrow, wide) in narrow.iter_mut().zip(*wide) {
+                        *narrow = *wide as f32;
+                    }
+                }
+            }
+            let columns = inputs.iter().zip(values.chunks_exact(count));
+            let columns = columns.map(|(input, narrow)| match input {
+                Input::Uniform(value) => Column::Uniform(*value as f32),
+                Input::Varying(_) => Column::Varying(narrow),
+            });
+            let constants = self.constants.iter();
+            let constants = constants.map(|&value| Column::Uniform(value as f32));
+            let columns: Vec<Column<'_, f32>> = columns.chain(constants).collect();
+            let (right, second) = results.split_at_mut(count);
+            let mut narrow_outs = [&mut *right, &mut *second];
+            self.program
+                .eval_blocks_f32(&columns, &mut narrow_outs, scratch);
+            for (out, narrow) in outs.into_iter().zip([right, second]) {
+                for (out, narrow) in out.iter_mut().zip(narrow) {
+                    *out = f64::from(*narrow);
+                }
+            }
+        });
     }
 }

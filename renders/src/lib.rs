@@ -92,8 +92,28 @@ pub enum Backend {
     Auto,
     /// Any adapter, software drivers included; [`Error::NoAdapter`] where there is none.
     Gpu,
-    /// The CPU, in f64.
+    /// The CPU, in the [`Precision`] asked for.
     Cpu,
+}
+
+/// What the CPU computes in; a graphics processor computes in f32.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Precision {
+    /// Double precision.
+    #[default]
+    F64,
+    /// Single precision in every operation, as in a shader; about twice as fast.
+    F32,
+}
+
+impl Precision {
+    /// `f64` or `f32`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::F64 => "f64",
+            Self::F32 => "f32",
+        }
+    }
 }
 
 /// How to draw.
@@ -103,6 +123,8 @@ pub struct Options {
     pub size: u32,
     /// What draws.
     pub backend: Backend,
+    /// What the CPU computes in.
+    pub precision: Precision,
     /// Leave out what the picture does not need. Without it the picture is the same and slower.
     pub skip: bool,
     /// Only the three panels, without any text: for a terminal whose cells are coarser than
@@ -115,6 +137,7 @@ impl Default for Options {
         Self {
             size: 368,
             backend: Backend::Auto,
+            precision: Precision::F64,
             skip: true,
             compact: false,
         }
@@ -148,6 +171,8 @@ pub struct Report {
     pub backend: &'static str,
     /// The adapter's name where a graphics processor drew.
     pub adapter: Option<String>,
+    /// What the panels were computed in.
+    pub precision: Precision,
     /// Pixels of a panel that were shaded under at least one light, their mirror images aside.
     pub pixels_shaded: u64,
     /// Pixels of a panel that were not.
@@ -195,7 +220,8 @@ pub fn render(
 ) -> Result<Picture, Error> {
     let start = Instant::now();
     let plan = Plan::of(fingerprint, options.skip);
-    let cpu = Cpu::new(fingerprint, &plan)?;
+    // The figures are in f64, whatever draws the panels.
+    let cpu = Cpu::new(fingerprint, &plan, Precision::F64)?;
     let profile = Profile::of(fingerprint, &cpu);
     let exposure = profile.exposure();
     let drawn = draw_panels(
@@ -231,6 +257,10 @@ pub fn render(
         report: Report {
             backend: drawn.backend,
             adapter: drawn.adapter,
+            precision: match drawn.backend {
+                "gpu" => Precision::F32,
+                _ => options.precision,
+            },
             pixels_shaded: drawn.shaded.pixels,
             pixels_skipped: pixels - drawn.shaded.pixels,
             points: drawn.shaded.points,
@@ -315,7 +345,7 @@ fn draw_panels(
         });
     }
     let on_cpu = || -> Result<Drawn, Error> {
-        let engine = Engine::Cpu(Box::new(Cpu::new(fingerprint, plan)?));
+        let engine = Engine::Cpu(Box::new(Cpu::new(fingerprint, plan, options.precision)?));
         let shaded = shade(&job, &engine)?;
         Ok(Drawn {
             panel,

@@ -196,11 +196,13 @@ pub(crate) fn program(
     expr: &Expr,
 ) -> Result<Program, formula::Error> {
     let constants = fingerprint.scene.constants();
-    let inputs: Vec<&str> = VARYING
-        .into_iter()
-        .chain(constants.iter().map(|(name, _)| name.as_str()))
-        .collect();
-    fingerprint.library.compile(expr, &inputs)
+    fingerprint.library.compile(expr, &inputs(&constants))
+}
+
+/// The names of a formula's inputs: what varies, then the scene's constants.
+pub(crate) fn inputs(constants: &[(String, f64)]) -> Vec<&str> {
+    let names = constants.iter().map(|(name, _)| name.as_str());
+    VARYING.into_iter().chain(names).collect()
 }
 
 /// The formula with its constant calls evaluated: a shader then holds their values, as the CPU's

@@ -1,11 +1,11 @@
 //! The equator of the sphere, through the disc's centre towards the main light: from its
 //! terminator over its highlight to the lit rim.
 
-use crate::Fingerprint;
 use crate::cpu::Cpu;
 use crate::plan::Plan;
 use crate::probe::{Place, Probe, Probed};
 use crate::shade::luminance;
+use crate::{Fingerprint, Precision};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// One point of the equator.
@@ -31,7 +31,7 @@ pub struct ProfilePoint {
 ///
 /// Empty where a formula cannot be evaluated in this scene.
 pub fn profile(fingerprint: &Fingerprint<'_>, samples: usize) -> Vec<ProfilePoint> {
-    match Cpu::new(fingerprint, &Plan::of(fingerprint, true)) {
+    match Cpu::new(fingerprint, &Plan::of(fingerprint, true), Precision::F64) {
         Ok(cpu) => along(&Probe::new(fingerprint, &cpu), samples),
         Err(_) => Vec::new(),
     }
@@ -44,7 +44,7 @@ pub fn point_at(fingerprint: &Fingerprint<'_>, x: f64, y: f64) -> Option<Profile
     if q2.is_nan() || q2 <= 0.0 {
         return None;
     }
-    let cpu = Cpu::new(fingerprint, &Plan::of(fingerprint, true)).ok()?;
+    let cpu = Cpu::new(fingerprint, &Plan::of(fingerprint, true), Precision::F64).ok()?;
     let probe = Probe::new(fingerprint, &cpu);
     let found = *probe.at(&[[x, y, q2.sqrt()]]).first()?;
     found.lit.then(|| point(x, &found))

@@ -2,8 +2,8 @@
 
 use formula::{Expr, Library};
 use renders::{
-    Backend, Error, Eye, Fingerprint, Light, Options, RADIUS, Scene, convergence, point_at,
-    profile, raw, render,
+    Backend, Error, Eye, Fingerprint, Light, Options, Precision, RADIUS, Scene, convergence,
+    point_at, profile, raw, render,
 };
 use std::sync::atomic::AtomicBool;
 
@@ -564,4 +564,33 @@ fn values_outside_a_domain_paint_black_and_never_stop_the_picture() {
         60.0,
     );
     broken.picture(&cpu(32));
+}
+
+/// In f32 every operation is rounded to f32, so the values differ, and little.
+#[test]
+fn single_precision_is_close_and_not_the_same() {
+    for skip in [true, false] {
+        let bug = bug(CORRECT, DIVIDED_TWICE, 0.4, 0.9, 60.0);
+        let wide = Options { skip, ..cpu(128) };
+        let narrow = Options {
+            precision: Precision::F32,
+            ..wide
+        };
+        let (a, b) = [wide, narrow]
+            .map(|options| raw(&bug.fingerprint(), &options).unwrap_or_else(|e| panic!("{e}")))
+            .into();
+        let pairs = || {
+            a.right
+                .iter()
+                .chain(&a.wrong)
+                .zip(b.right.iter().chain(&b.wrong))
+        };
+        let brightest = a.right.iter().fold(0.0_f64, |a, &b| a.max(b));
+        for (a, b) in pairs() {
+            let tolerance = 1e-5 * a.abs() + 1e-7 * brightest;
+            assert!((a - b).abs() <= tolerance, "{a} and {b}");
+        }
+        assert!(pairs().any(|(a, b)| a != b), "nothing was computed in f32");
+        assert_eq!(bug.picture(&narrow).report.precision, Precision::F32);
+    }
 }

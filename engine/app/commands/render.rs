@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use tutor::Lesson;
 use tutor::prose::{Block, PlotView};
 
-use crate::cli::{Backend, Folders, Render};
+use crate::cli::{Backend, Folders, Precision, Render};
 use crate::exit::{Done, Failure};
 use crate::fingerprints::{figure, fingerprint};
 use crate::output;
@@ -28,6 +28,8 @@ struct Report {
     id: String,
     backend: String,
     adapter: Option<String>,
+    /// `f64` or `f32`; null for a plot.
+    precision: Option<String>,
     pixels_shaded: u64,
     pixels_skipped: u64,
     points: u64,
@@ -161,6 +163,10 @@ fn draw(fingerprint: &Fingerprint, args: &Render, out: &Path) -> Result<Report, 
             Backend::Gpu => renders::Backend::Gpu,
             Backend::Cpu => renders::Backend::Cpu,
         },
+        precision: match args.precision {
+            Precision::F64 => renders::Precision::F64,
+            Precision::F32 => renders::Precision::F32,
+        },
         ..Options::default()
     };
     let picture =
@@ -179,6 +185,7 @@ fn draw(fingerprint: &Fingerprint, args: &Render, out: &Path) -> Result<Report, 
         id: fingerprint.id.to_owned(),
         backend: made.backend.to_owned(),
         adapter: made.adapter,
+        precision: Some(made.precision.name().to_owned()),
         pixels_shaded: made.pixels_shaded,
         pixels_skipped: made.pixels_skipped,
         points: made.points,
@@ -227,6 +234,7 @@ fn draw_plot(lesson: &Lesson, view: &PlotView, out: &Path) -> Result<Vec<Report>
             id: view.id.clone(),
             backend: "plot".to_owned(),
             adapter: None,
+            precision: None,
             pixels_shaded: 0,
             pixels_skipped: 0,
             points: 0,
@@ -268,7 +276,7 @@ fn cache_entry(fingerprint: &Fingerprint, args: &Render) -> Option<PathBuf> {
         .ok()?;
     let library = fingerprint.library;
     let content = format!(
-        "{:?} {built:?} {} | {} | {} | {:?} | {} | {} | {} | {:?} | {} | {}",
+        "{:?} {built:?} {} | {} | {} | {:?} | {} | {} | {} | {:?} {:?} | {} | {}",
         program.len(),
         env!("CARGO_PKG_VERSION"),
         library.canonical(fingerprint.right),
@@ -278,6 +286,7 @@ fn cache_entry(fingerprint: &Fingerprint, args: &Render) -> Option<PathBuf> {
         fingerprint.caption,
         args.size,
         args.backend,
+        args.precision,
         fingerprint.lesson,
         fingerprint.id,
     );
