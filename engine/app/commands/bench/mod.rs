@@ -25,7 +25,7 @@ pub fn run(args: &Bench) -> Result<Done, Failure> {
         fs::create_dir_all(folder).map_err(|error| Failure::unwritable(folder, &error))?;
     }
     let (machine, load) = (machine(), load());
-    output::progress("measuring divisions and square roots");
+    output::progress("measuring divisions, square roots and products");
     let limits = limits(effort);
     output::progress("");
     let foreword = foreword(&machine, &load, &limits);
@@ -104,8 +104,8 @@ fn foreword(machine: &str, load: &str, limits: &[Limit]) -> String {
     );
     for limit in limits {
         text.push_str(&format!(
-            "  {:<9} division {:.3}  square root {:.3}\n",
-            limit.isa, limit.division_ns, limit.square_root_ns
+            "  {:<9} division {:.3}  square root {:.3}  product {:.4}\n",
+            limit.isa, limit.division_ns, limit.square_root_ns, limit.product_ns
         ));
     }
     text
@@ -114,7 +114,8 @@ fn foreword(machine: &str, load: &str, limits: &[Limit]) -> String {
 /// What stands above the columns.
 fn heading() -> String {
     format!(
-        "\nlimit: share of what those units allow, by the divisions (÷) and roots (√) of an evaluation.\n\
+        "\nlimit: share of what those units allow: divisions (÷) and roots (√) share one, products (×) have\n\
+         others; of whichever takes longer.\n\
          Errors in units of the last place of the row's precision; r: relative. Random points.\n\
          *: no other way in the group is as fast and as accurate.\n\n  \
          {:<27} {:<3} {:<8} {:>8} {:>7} {:>5} {:<4} {:>8} {:>8} {:>8}\n",
@@ -139,22 +140,13 @@ fn print(group: &[Row], as_json: bool) -> Result<(), Failure> {
 }
 
 fn table_row(row: &Row) -> String {
-    let (share, needs) = match (row.limit_ratio, row.needs) {
-        (Some(ratio), Some((divisions, roots))) => {
-            let part = |count: f64, sign| {
-                if count > 0.0 {
-                    format!("{count}{sign}")
-                } else {
-                    String::new()
-                }
-            };
-            (
-                format!("{:.0}%", 100.0 * ratio),
-                part(divisions, '÷') + &part(roots, '√'),
-            )
-        }
-        _ => (String::new(), String::new()),
-    };
+    let share = row
+        .limit_ratio
+        .map(|ratio| format!("{:.0}%", 100.0 * ratio));
+    let (share, needs) = (
+        share.unwrap_or_default(),
+        row.needs.as_deref().unwrap_or_default(),
+    );
     let error = |error| match row.error_unit {
         "none" => "-".to_owned(),
         "relative" => format!("{error:.1e}r"),
@@ -246,7 +238,7 @@ mod tests {
             isa: "baseline",
             ns,
             limit_ratio: Some(0.934),
-            needs: Some((3.0, 2.0)),
+            needs: Some("3÷2√".into()),
             max_ulp,
             p999_ulp: max_ulp,
             median_ulp: max_ulp / 2.0,

@@ -1,6 +1,7 @@
 //! Elementary functions without branches and calls, for loops that are to be vectorised.
 
 use crate::real::{Single, lit};
+use std::f64::consts::FRAC_PI_2;
 
 /// sin and cos of 2π u for u in [0, 1], by polynomials on an eighth of a turn; within 1e-7.
 #[inline(always)]
@@ -17,7 +18,7 @@ pub(crate) fn sin_cos_turn<S: Single>(u: S) -> (S, S) {
     let sin = r * lit::<S>(-4.601_657_4e-3)
         .mul_add(r2, lit(7.968_003_3e-2))
         .mul_add(r2, lit(-0.645_963_46))
-        .mul_add(r2, lit(1.570_796_3));
+        .mul_add(r2, lit(FRAC_PI_2));
     let cos = lit::<S>(-2.041_728_2e-2)
         .mul_add(r2, lit(0.253_603_21))
         .mul_add(r2, lit(-1.233_697_7))

@@ -23,7 +23,7 @@ pub(crate) use functions::{ln_unit, sin_cos_turn};
 pub use sample::{Samples, sample};
 pub use specular::{Cosines, Vectors, specular, specular_vec3, specular_vectors};
 
-use crate::real::{Fused, Single};
+use crate::real::{Fused, Single, lit};
 
 /// A set of instructions that this machine has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -213,5 +213,29 @@ fn square_root_body<S: Single>(a: &[f32], out: &mut [f32]) {
     let (a, out) = (&a[..n], &mut out[..n]);
     for i in 0..n {
         out[i] = S::load(a[i]).sqrt().store();
+    }
+}
+
+/// How many products [`multiply`] makes of each number.
+pub const PRODUCTS: usize = 32;
+
+/// Products with sums, fused where the machine can: [`PRODUCTS`] of each number, in eight chains,
+/// to measure how fast it multiplies.
+pub fn multiply(isa: Isa, a: &[f32], out: &mut [f32]) {
+    dispatch!(isa, multiply_body(a: &[f32], out: &mut [f32]))
+}
+
+#[inline(always)]
+fn multiply_body<S: Single>(a: &[f32], out: &mut [f32]) {
+    let n = a.len().min(out.len());
+    let (a, out) = (&a[..n], &mut out[..n]);
+    for i in 0..n {
+        let x = S::load(a[i]);
+        let mut chains = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8].map(lit::<S>);
+        for _ in 0..PRODUCTS / 8 {
+            chains = chains.map(|sum| sum.mul_add(x, x));
+        }
+        let [a, b, c, d, e, f, g, h] = chains;
+        out[i] = (((a + b) + (c + d)) + ((e + f) + (g + h))).store();
     }
 }

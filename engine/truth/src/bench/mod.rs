@@ -1,12 +1,16 @@
 //! Run time against error, for every term and every way to compute it.
 //!
-//! Times are of one thread on data in the nearest caches: the best of many short runs, since
-//! everything that disturbs a run makes it longer. Errors are in units of the last place
+//! Times are of one thread on data in the nearest caches, where a row does not say otherwise: the
+//! best of many short runs, since everything that disturbs a run makes it longer. The runs of the
+//! batches are spread over the whole time of measuring: a neighbour on the other thread of the
+//! same core, which nobody inside a virtual machine can see, takes a third of the speed away
+//! for seconds at a time. Errors are in units of the last place
 //! against the textbook forms in high precision, at random points of the sensible ranges; the
 //! search for the worst points is [`crate::stress`].
 
 mod approximations;
 mod batches;
+mod cores;
 mod terms;
 
 use std::hint::black_box;
@@ -25,10 +29,11 @@ pub struct Row {
     pub isa: &'static str,
     /// Nanoseconds for one evaluation.
     pub ns: f64,
-    /// Share of what the machine's division and square-root units allow, where that is known.
+    /// Share of what the machine's units allow, where it is known what an evaluation needs.
     pub limit_ratio: Option<f64>,
-    /// Divisions and square roots of an evaluation, where that share is known.
-    pub needs: Option<(f64, f64)>,
+    /// What an evaluation needs of the unit that limits it: `1÷2√` for a division and two
+    /// square roots, which share one, or `24×` for products.
+    pub needs: Option<String>,
     /// Largest error.
     pub max_ulp: f64,
     /// Error that one point in a thousand exceeds.
@@ -71,7 +76,7 @@ impl Effort {
     };
 }
 
-/// What divisions and square roots cost on this machine.
+/// What divisions, square roots and products cost on this machine.
 #[derive(Debug, Clone, Copy)]
 pub struct Limit {
     /// The instruction set.
@@ -80,6 +85,36 @@ pub struct Limit {
     pub division_ns: f64,
     /// Nanoseconds a lane for a square root.
     pub square_root_ns: f64,
+    /// Nanoseconds a lane for a product, with a sum that comes for free.
+    pub product_ns: f64,
+}
+
+/// What one evaluation needs in the form with the least of it that is known here.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Needs {
+    pub divisions: f64,
+    pub roots: f64,
+    /// Products, each with a sum where the form has one for it.
+    pub products: f64,
+}
+
+impl Needs {
+    /// The least time that the machine's units need, and of which of them it is.
+    ///
+    /// Divisions and square roots share one unit, products have others: the one that takes
+    /// longer is the limit, even where all the rest is done beside it.
+    fn least(self, limit: &Limit) -> (f64, String) {
+        let slow = self.divisions * limit.division_ns + self.roots * limit.square_root_ns;
+        let fast = self.products * limit.product_ns;
+        if fast > slow {
+            return (fast, format!("{}×", self.products));
+        }
+        let part = |count: f64, sign| match count {
+            0.0 => String::new(),
+            _ => format!("{count}{sign}"),
+        };
+        (slow, part(self.divisions, '÷') + &part(self.roots, '√'))
+    }
 }
 
 /// The limits of every instruction set that this machine has, measured.
@@ -95,12 +130,15 @@ pub fn run(effort: Effort, limits: &[Limit], mut done: impl FnMut(&[Row])) -> Ve
         done(&rows);
         all.append(&mut rows);
     };
+    let mut batches = batches::Batches::new(effort);
     for term in brdf::terms() {
         add(terms::rows(term, effort));
+        batches.round();
     }
-    for group in batches::groups(effort, limits) {
+    for group in batches.finish(limits) {
         add(group);
     }
+    add(cores::rows(effort, limits));
     for group in approximations::groups(effort) {
         add(group);
     }
@@ -123,23 +161,54 @@ pub fn mark_pareto(rows: &mut [Row]) {
 
 /// Nanoseconds for one of the `count` evaluations that a call of `f` makes: the best of runs
 /// of some fifty microseconds each.
-pub(crate) fn time(effort: Effort, count: usize, mut f: impl FnMut()) -> f64 {
-    let once = {
+pub(crate) fn time(effort: Effort, count: usize, f: impl FnMut()) -> f64 {
+    let mut stopwatch = Stopwatch::new(count, f);
+    stopwatch.round(effort.time, 5);
+    stopwatch.ns()
+}
+
+/// Takes the time of something, now and then.
+pub(crate) struct Stopwatch<F> {
+    f: F,
+    /// Evaluations of a call, and calls of a run.
+    count: usize,
+    calls: usize,
+    /// Seconds of a call.
+    best: f64,
+}
+
+impl<F: FnMut()> Stopwatch<F> {
+    pub fn new(count: usize, mut f: F) -> Self {
         let start = Instant::now();
         f();
-        start.elapsed().as_secs_f64().max(1e-9)
-    };
-    let repeats = ((5e-5 / once) as usize).clamp(1, 10_000);
-    let (begin, mut best, mut runs) = (Instant::now(), f64::INFINITY, 0);
-    while runs < 5 || begin.elapsed() < effort.time {
-        let start = Instant::now();
-        for _ in 0..repeats {
-            f();
+        let once = start.elapsed().as_secs_f64().max(1e-9);
+        Stopwatch {
+            f,
+            count,
+            calls: ((5e-5 / once) as usize).clamp(1, 10_000),
+            best: f64::INFINITY,
         }
-        best = best.min(start.elapsed().as_secs_f64() / repeats as f64);
-        runs += 1;
     }
-    best / count as f64 * 1e9
+
+    /// Runs for so long, and at least so often.
+    pub fn round(&mut self, time: Duration, least: usize) {
+        let (begin, mut runs) = (Instant::now(), 0);
+        while runs < least || begin.elapsed() < time {
+            let start = Instant::now();
+            for _ in 0..self.calls {
+                (self.f)();
+            }
+            self.best = self
+                .best
+                .min(start.elapsed().as_secs_f64() / self.calls as f64);
+            runs += 1;
+        }
+    }
+
+    /// Nanoseconds of an evaluation, in the best run so far.
+    pub fn ns(&self) -> f64 {
+        self.best / self.count as f64 * 1e9
+    }
 }
 
 /// Keeps the compiler from computing a value in advance, or not at all.
