@@ -6,7 +6,8 @@
 use crate::axis::{Axis, Tick};
 use crate::backend::{CanvasBackend, EIGHTHS};
 use crate::canvas::{Align, Canvas, Style, png};
-use crate::colour::{LIGHT, Theme};
+use crate::colour::{LIGHT, Rgb, Theme};
+use crate::dots::{Dot, Shape};
 use crate::error::Error;
 use crate::label::Taken;
 use crate::pen::{Frame, Pen, runs};
@@ -31,9 +32,12 @@ pub struct PlotSpec {
     pub series: Vec<(String, Vec<(f64, f64)>)>,
     /// Points worth a label: the label, x, y.
     pub marks: Vec<(String, f64, f64)>,
-    /// The marks are the figure: there is room around the outermost, and the labels are smaller
-    /// and keep off other marks.
-    pub scatter: bool,
+    /// Points that are the figure, in place of `marks`; the curves between them are thin.
+    pub dots: Vec<Dot>,
+    /// What the shapes of the points stand for.
+    pub shapes: Vec<(Shape, String)>,
+    /// Points that no other beats on both axes, from left to right: stairs are drawn through them.
+    pub front: Vec<(f64, f64)>,
 }
 
 /// A figure with what only this crate's pictures need beyond [`PlotSpec`].
@@ -141,12 +145,16 @@ impl Chart<'_> {
                 .iter()
                 .flat_map(|(_, points)| points.iter().copied())
         };
-        let marks = || self.spec.marks.iter().map(|mark| (mark.1, mark.2));
+        let marks = || {
+            let marks = self.spec.marks.iter().map(|mark| (mark.1, mark.2));
+            marks.chain(self.spec.dots.iter().map(|dot| dot.at))
+        };
+        let scatter = !self.spec.dots.is_empty();
         let x_axis = Axis::fit(
             finite().chain(marks()).map(|p| p.0),
             self.spec.x_log,
             self.x_range,
-            self.spec.scatter,
+            scatter,
         );
         let y_axis = Axis::fit(
             finite().chain(marks()).map(|p| p.1),
@@ -161,6 +169,7 @@ impl Chart<'_> {
         let pen = Pen { area };
         pen.rect(0.0, 0.0, width, height, self.theme.paper, 1.0)?;
         let legend_rows = self.legend_rows(width - 2.0 * em);
+        let rows = legend_rows.len() + self.key_rows(width - 2.0 * em);
         let title = if self.spec.title.is_empty() {
             0.0
         } else {
@@ -178,7 +187,7 @@ impl Chart<'_> {
         };
         let frame = Frame {
             left: 0.8 * em + y_label + tick_width + 0.6 * em,
-            top: 0.9 * em + title + 1.7 * em * legend_rows.len() as f64,
+            top: 0.9 * em + title + 1.7 * em * rows as f64,
             right: width - 1.4 * em,
             bottom: height
                 - 2.1 * em
@@ -211,11 +220,20 @@ impl Chart<'_> {
             )?;
         }
         self.draw_legend(&pen, &legend_rows, 0.6 * em + title)?;
+        let below = 0.6 * em + title + 1.7 * em * legend_rows.len() as f64;
+        self.draw_keys(&pen, width - 2.0 * em, below)?;
         self.draw_grid(&pen, frame, (&x_axis, &x_ticks), (&y_axis, &y_ticks))?;
         self.draw_bands(&pen, frame, &x_axis)?;
         let mut taken = Taken::default();
-        for (index, (_, points)) in self.spec.series.iter().enumerate() {
-            let colour = self.theme.series[index % self.theme.series.len()];
+        let axes = (&x_axis, &y_axis);
+        if scatter {
+            self.draw_front(&pen, frame, axes)?;
+            self.draw_threads(&pen, frame, axes, &mut taken)?;
+            self.draw_dots(&pen, frame, axes, &mut taken)?;
+        }
+        let curves = if scatter { &[] } else { &self.spec.series[..] };
+        for (index, (_, points)) in curves.iter().enumerate() {
+            let colour = self.colour(index);
             let width = self
                 .widths
                 .get(index)
@@ -227,7 +245,7 @@ impl Chart<'_> {
                 taken.curve(&run, 0.25 * em);
             }
         }
-        self.draw_marks(&pen, frame, (&x_axis, &y_axis), &mut taken)?;
+        self.draw_marks(&pen, frame, axes, &mut taken)?;
         let middle = (frame.left + frame.right) / 2.0;
         pen.text(
             middle,
@@ -241,6 +259,14 @@ impl Chart<'_> {
             Style::new(em as f32, Weight::Regular, Align::Centre, self.theme.ink),
             &self.spec.y_label,
         )
+    }
+
+    /// The colour of a curve.
+    pub(crate) fn colour(&self, index: usize) -> Rgb {
+        let (first, more) = (&self.theme.series, &self.theme.more);
+        let index = index % (first.len() + more.len());
+        let colours = first.iter().chain(more);
+        colours.copied().nth(index).unwrap_or(self.theme.ink)
     }
 
     /// The names of the curves, broken into rows of at most `width` pixels.
@@ -281,7 +307,7 @@ impl Chart<'_> {
             let y = top + 1.7 * em * row_index as f64 + 1.05 * em;
             let mut x = em;
             for &index in row {
-                let colour = self.theme.series[index % self.theme.series.len()];
+                let colour = self.colour(index);
                 pen.path(
                     &[(x, y - 0.36 * em), (x + 1.8 * em, y - 0.36 * em)],
                     0.22 * em,
@@ -420,12 +446,6 @@ impl Chart<'_> {
         taken: &mut Taken,
     ) -> Result<(), Error> {
         let em = self.em;
-        let letters = if self.spec.scatter { 0.8 * em } else { em };
-        if self.spec.scatter {
-            for (_, x, y) in &self.spec.marks {
-                taken.disc((frame.x(x_axis, *x), frame.y(y_axis, *y)), 0.4 * em);
-            }
-        }
         for (label, x, y) in &self.spec.marks {
             if !x_axis.holds(*x) || !y_axis.holds(*y) {
                 continue;
@@ -436,11 +456,11 @@ impl Chart<'_> {
             if label.is_empty() {
                 continue;
             }
-            let width = f64::from(text::width(label, letters as f32, Weight::Regular));
+            let width = f64::from(text::width(label, em as f32, Weight::Regular));
             let bounds = (frame.left, frame.top, frame.right, frame.bottom);
-            let place = taken.place((x, y), width, letters, bounds);
-            let style = Style::new(letters as f32, Weight::Regular, Align::Left, self.theme.ink);
-            pen.text(place.0, place.3 - 0.2 * letters, style, label)?;
+            let place = taken.place((x, y), width, em, bounds);
+            let style = Style::new(em as f32, Weight::Regular, Align::Left, self.theme.ink);
+            pen.text(place.0, place.3 - 0.2 * em, style, label)?;
         }
         Ok(())
     }

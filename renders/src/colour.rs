@@ -131,6 +131,10 @@ pub struct Theme {
     pub grid: Rgb,
     /// Curves, in order: for a fingerprint the first is right and the second wrong.
     pub series: [Rgb; 6],
+    /// What a chart needs beyond these where it shows more at once.
+    pub more: [Rgb; 4],
+    /// The line through the best points of a chart.
+    pub front: Rgb,
 }
 
 /// For pictures: a dark surround, so that the highlight is the brightest thing to see.
@@ -148,6 +152,13 @@ pub const DARK: Theme = Theme {
         [240, 222, 98],
         [170, 178, 190],
     ],
+    more: [
+        [120, 210, 230],
+        [230, 110, 100],
+        [170, 150, 240],
+        [180, 210, 110],
+    ],
+    front: [70, 76, 90],
 };
 
 /// For plots on a page: the Okabe-Ito colours, which stay apart for colour-blind readers.
@@ -165,4 +176,6 @@ pub const LIGHT: Theme = Theme {
         [150, 120, 0],
         [90, 96, 106],
     ],
+    more: [[86, 180, 233], [160, 30, 30], [110, 80, 190], [90, 150, 30]],
+    front: [232, 222, 190],
 };

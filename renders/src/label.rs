@@ -33,7 +33,29 @@ impl Taken {
 
     /// The best place for a label `width` pixels wide beside the point (`x`, `y`), within
     /// `frame`; it is taken from then on.
-    pub fn place(&mut self, (x, y): (f64, f64), width: f64, em: f64, frame: Box) -> Box {
+    pub fn place(&mut self, at: (f64, f64), width: f64, em: f64, frame: Box) -> Box {
+        let (_, place) = self.best(at, width, em, frame);
+        self.boxes.push(place);
+        place
+    }
+
+    /// The same where a label stands on nothing else, and no place where it would.
+    pub fn place_if_free(
+        &mut self,
+        at: (f64, f64),
+        width: f64,
+        em: f64,
+        frame: Box,
+    ) -> Option<Box> {
+        let (cost, place) = self.best(at, width, em, frame);
+        // Lines may be crossed; labels, dots and the frame may not.
+        (cost < 100.0).then(|| {
+            self.boxes.push(place);
+            place
+        })
+    }
+
+    fn best(&self, (x, y): (f64, f64), width: f64, em: f64, frame: Box) -> (f64, Box) {
         let (gap, height) = (0.7 * em, 1.1 * em);
         let beside = [x + gap, x - gap - width, x - width / 2.0];
         let heights = [
@@ -74,8 +96,7 @@ impl Taken {
                 best = (cost, place);
             }
         }
-        self.boxes.push(best.1);
-        best.1
+        best
     }
 }
 

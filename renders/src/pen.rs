@@ -133,6 +133,14 @@ impl<B: DrawingBackend> Pen<'_, B> {
         self.draw(&PathElement::new(points, style))
     }
 
+    pub fn polygon(&self, corners: &[(f64, f64)], colour: Rgb) -> Result<(), Error> {
+        let corners: Vec<(i32, i32)> = corners
+            .iter()
+            .map(|&(x, y)| (eighths(x), eighths(y)))
+            .collect();
+        self.draw(&Polygon::new(corners, rgba(colour, 1.0).filled()))
+    }
+
     pub fn disc(&self, x: f64, y: f64, radius: f64, colour: Rgb) -> Result<(), Error> {
         self.draw(&Circle::new(
             (eighths(x), eighths(y)),

@@ -12,6 +12,7 @@
 //!
 //! Nothing here touches a file, the environment, a clock, a thread or a random source.
 
+pub mod albedo_fits;
 pub mod batch;
 pub mod d;
 pub mod diffuse;
@@ -29,6 +30,7 @@ mod vector_terms;
 pub mod walk;
 pub mod whole;
 
+pub use albedo_fits::*;
 pub use d::*;
 pub use diffuse::*;
 pub use energy::*;

@@ -61,6 +61,7 @@ static TERMS: LazyLock<Vec<Term>> = LazyLock::new(|| {
         crate::whole::TERMS,
         crate::integral::TERMS,
         crate::energy::TERMS,
+        crate::albedo_fits::TERMS,
         crate::half_vector::TERMS,
     ]
     .concat()

@@ -2,7 +2,7 @@
 
 use brdf::batch::{self, Conductor, Cosines, Input, Isa, Samples, Vectors};
 use brdf::glam::Vec3;
-use brdf::{Fresnel, Ggx, Sampler, Specular, d_ggx, f_conductor, f_schlick, v_ggx};
+use brdf::{Fresnel, Ggx, Param, Sampler, Specular, d_ggx, f_conductor, f_schlick, terms, v_ggx};
 
 const COUNT: usize = 4099;
 
@@ -242,5 +242,41 @@ fn short_and_hostile() {
         assert!(out[0] > 0.0);
         assert_eq!(out[1..], [0.0, 0.0]);
         batch::specular(isa, &input, &mut []);
+    }
+}
+
+#[test]
+fn every_term_runs_in_lanes() {
+    const COUNT: usize = 100;
+    for term in terms().iter().filter(|term| term.cost < 10_000) {
+        let column = |(i, param): (usize, &Param)| -> Vec<f32> {
+            let (low, high) = param.range;
+            let share = |k: usize| ((k * (7 + 2 * i) + 3 * i + 1) % COUNT) as f64 / COUNT as f64;
+            (0..COUNT)
+                .map(|k| (low + (high - low) * share(k)) as f32)
+                .collect()
+        };
+        let columns: Vec<Vec<f32>> = term.params.iter().enumerate().map(column).collect();
+        let slices: Vec<&[f32]> = columns.iter().map(Vec::as_slice).collect();
+        for isa in Isa::available() {
+            // One element more than there are arguments: it must not be touched.
+            let mut out = vec![-7.0f32; COUNT + 1];
+            (term.batch)(isa, &slices, &mut out);
+            assert_eq!(out[COUNT], -7.0);
+            for k in 0..COUNT {
+                let args: Vec<f32> = columns.iter().map(|column| column[k]).collect();
+                let single = (term.f32)(&args);
+                let close = (out[k] - single).abs() <= 1e-5 * single.abs().max(1e-3);
+                assert!(
+                    close || (out[k].is_nan() && single.is_nan()),
+                    "{} {}: {} for {single} at {args:?}",
+                    term.name,
+                    isa.name(),
+                    out[k]
+                );
+            }
+            (term.batch)(isa, &[], &mut out);
+            assert!(out.iter().all(|x| x.is_nan()));
+        }
     }
 }

@@ -146,11 +146,9 @@ fn asymmetry(mut leave: impl FnMut([f64; 3], &mut Numbers) -> Option<[f64; 3]>) 
         }
     }
     let mut worst = 0.0f64;
-    for i in 0..SLICES {
-        for j in 0..i {
-            let (a, b) = (counts[i][j], counts[j][i]);
-            worst = worst.max((a - b).abs() / (a + b).sqrt());
-        }
+    for (i, j) in (0..SLICES).flat_map(|i| (0..i).map(move |j| (i, j))) {
+        let (a, b) = (counts[i][j], counts[j][i]);
+        worst = worst.max((a - b).abs() / (a + b).sqrt());
     }
     worst
 }

@@ -205,6 +205,57 @@ pub(crate) fn evaluate(name: &str, args: &[Big], bits: usize) -> Big {
 
         ("f_multi_kulla_conty", [l, v, average]) => (1.0 - l) * (1.0 - v) / (&pi * (1.0 - average)),
         ("compensation_turquin", [f0, e]) => 1.0 + f0 * (1.0 - e) / e,
+        ("albedo_ggx_karis", [f0, mu, r]) => {
+            // Decimals of at most four digits.
+            let d = |x: f64| ratio((x * 1e4).round(), 1e4);
+            let c = [
+                [-1.0, 1.0],
+                [-0.0275, 0.0425],
+                [-0.572, 1.04],
+                [0.022, -0.04],
+            ];
+            let [x, y, z, w] = c.map(|[c0, c1]| d(c0) * r + d(c1));
+            let grazing = ratio(2.0, 1.0).pow(&(d(-9.28) * mu));
+            let a004 = sq(&x).min(&grazing) * x + y;
+            f0 * (d(-1.04) * &a004 + z) + (d(1.04) * a004 + w)
+        }
+        ("albedo_ggx_materialx", [f0, x, y]) => {
+            let d = |x: f64| ratio((x * 1e4).round(), 1e4);
+            let one = ratio(1.0, 1.0);
+            let (x2, y2) = (sq(x), sq(y));
+            let m = [
+                one.clone(),
+                x.clone(),
+                y.clone(),
+                x * y,
+                x2.clone(),
+                y2.clone(),
+                &x2 * y,
+                x * &y2,
+                &x2 * &y2,
+            ];
+            let sum = |c: [f64; 9]| {
+                let terms = m.iter().zip(c).map(|(m, c)| d(c) * m);
+                terms.reduce(|sum, term| sum + term).unwrap_or(Big::none())
+            };
+            let r = [
+                [
+                    0.1003, -0.6303, 9.748, -2.038, 29.34, -8.245, -26.44, 19.99, -5.448,
+                ],
+                [
+                    0.9345, -2.323, 2.229, -3.748, 1.424, -0.7684, 1.436, 0.2913, 0.6286,
+                ],
+                [
+                    1.0, -1.765, 8.263, 11.53, 28.96, -7.507, -36.11, 15.86, 33.37,
+                ],
+                [
+                    1.0, 0.2281, 15.94, -55.83, 13.08, 41.26, 54.9, 300.2, -285.1,
+                ],
+            ];
+            let [rx, ry, rz, rw] = r.map(sum);
+            let unit = |x: Big| x.max(&ratio(0.0, 1.0)).min(&one);
+            f0 * unit(rx / rz) + unit(ry / rw)
+        }
         ("alpha_filtered", [a, variance]) => {
             let kernel = (2.0 * variance).min(&ratio(18.0, 100.0));
             ratio(1.0, 1.0).min(&(sq(a) + kernel)).sqrt()

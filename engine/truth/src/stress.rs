@@ -192,10 +192,26 @@ pub fn search(term: &'static Term, precision: Precision, effort: Effort, seed: u
 /// Error of a term at a point, in units of the last place; 0 where there is no truth, and ∞
 /// where the truth is finite and the result is not.
 pub fn error(term: &Term, precision: Precision, args: &[f64]) -> f64 {
-    let Some(truth) = value(term.name, args) else {
-        return 0.0;
-    };
-    let result = precision.evaluate(term, args);
+    match value(term.name, args) {
+        Some(truth) => error_against(
+            &truth,
+            term,
+            precision,
+            args,
+            precision.evaluate(term, args),
+        ),
+        None => 0.0,
+    }
+}
+
+/// The same of a result that is there already, against a truth that is.
+pub(crate) fn error_against(
+    truth: &Big,
+    term: &Term,
+    precision: Precision,
+    args: &[f64],
+    result: f64,
+) -> f64 {
     if truth.abs().to_f64() > precision.largest() {
         return if result.is_infinite() {
             0.0

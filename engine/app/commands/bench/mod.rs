@@ -2,6 +2,7 @@
 
 mod plots;
 
+use std::io::{self, IsTerminal as _};
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::{fs, thread};
@@ -24,7 +25,7 @@ pub fn run(args: &Bench) -> Result<Done, Failure> {
         // Before minutes of measuring, not after.
         fs::create_dir_all(folder).map_err(|error| Failure::unwritable(folder, &error))?;
     }
-    let (machine, load) = (machine(), load());
+    let (machine, load, width) = (machine(), load(), Width::of_output());
     output::progress("measuring divisions, square roots and products");
     let limits = limits(effort);
     output::progress("");
@@ -33,14 +34,14 @@ pub fn run(args: &Bench) -> Result<Done, Failure> {
         foreword.lines().for_each(output::complain);
     } else {
         output::text(&foreword)?;
-        output::text(&heading())?;
+        output::text(&heading(width))?;
     }
 
     let mut printed = Ok(());
     let rows = measure(effort, &limits, |group| {
         output::progress("");
         if printed.is_ok() {
-            printed = print(group, args.json);
+            printed = print(group, args.json, width);
         }
         if let Some(row) = group.first() {
             output::progress(&format!("after {}", row.group));
@@ -111,19 +112,120 @@ fn foreword(machine: &str, load: &str, limits: &[Limit]) -> String {
     text
 }
 
+/// How many columns a table may take.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Width {
+    /// All columns, a hundred characters.
+    Full,
+    /// Without those that follow from others, eighty.
+    Narrow,
+}
+
+impl Width {
+    /// Full but on a terminal that is narrower.
+    fn of_output() -> Width {
+        let columns = crossterm::terminal::size().map_or(u16::MAX, |(columns, _)| columns);
+        if io::stdout().is_terminal() && columns < 100 {
+            Width::Narrow
+        } else {
+            Width::Full
+        }
+    }
+}
+
+/// One line of the table: what stands at its beginning, the way to compute, and the figures.
+struct Cells<'a> {
+    star: char,
+    variant: &'a str,
+    precision: &'a str,
+    isa: &'a str,
+    ns: String,
+    meval_s: String,
+    share: String,
+    needs: String,
+    worst: String,
+    p999: String,
+    median: String,
+}
+
+impl Cells<'_> {
+    fn line(&self, width: Width) -> String {
+        let Cells {
+            star,
+            variant,
+            precision,
+            isa,
+            ns,
+            meval_s,
+            share,
+            needs,
+            worst,
+            p999,
+            median,
+        } = self;
+        let line = match width {
+            Width::Full => format!(
+                "{star} {variant:<27} {precision:<3} {isa:<8} {ns:>8} {meval_s:>7} {share:>5} \
+                 {needs:<4} {worst:>8} {p999:>8} {median:>8}"
+            ),
+            Width::Narrow => format!(
+                "{star} {variant:<27} {precision:<3} {isa:<8} {ns:>8} {share:>5} {worst:>8} \
+                 {median:>8}"
+            ),
+        };
+        format!("{}\n", line.trim_end())
+    }
+}
+
 /// What stands above the columns.
-fn heading() -> String {
+fn heading(width: Width) -> String {
+    let columns = Cells {
+        star: ' ',
+        variant: "",
+        precision: "",
+        isa: "",
+        ns: "ns".into(),
+        meval_s: "M/s".into(),
+        share: "limit".into(),
+        needs: "of".into(),
+        worst: "worst".into(),
+        p999: "p99.9".into(),
+        median: "median".into(),
+    };
+    let limit = match width {
+        Width::Full => {
+            "limit: share of what those units allow: divisions (÷) and roots (√) share one, products (×) have\n\
+             others; of whichever takes longer."
+        }
+        Width::Narrow => "limit: share of what those units allow.",
+    };
     format!(
-        "\nlimit: share of what those units allow: divisions (÷) and roots (√) share one, products (×) have\n\
-         others; of whichever takes longer.\n\
+        "\n{limit}\n\
          Errors in units of the last place of the row's precision; r: relative. Random points.\n\
-         *: no other way in the group is as fast and as accurate.\n\n  \
-         {:<27} {:<3} {:<8} {:>8} {:>7} {:>5} {:<4} {:>8} {:>8} {:>8}\n",
-        "", "", "", "ns", "M/s", "limit", "of", "worst", "p99.9", "median"
+         *: no other way in the group is as fast and as accurate.\n\n{}",
+        columns.line(width)
     )
 }
 
-fn print(group: &[Row], as_json: bool) -> Result<(), Failure> {
+/// What a group is about, where its name does not say it.
+fn note(group: &str) -> &'static str {
+    match group {
+        "albedo" => "directional albedo, F = 1; asked of the quadrature: 1e-5 in 15,000 ns",
+        "albedo_schlick" => "the same with Schlick's Fresnel, f0 = 0.04",
+        "albedo_at_alpha_1" => "against E = 1 - N·V ln(1 + 1/N·V)",
+        "albedo_table" => "asked: 2e8 ns",
+        "weak_furnace" => "the integral of D G1 (v·m) over N·V, which is 1",
+        "furnace" => "what a white metal returns of all it receives, against 1",
+        "furnace_diffuse" => "the same of the diffuse models at roughness 0.7",
+        "reciprocity" => "f(l, v) against f(v, l)",
+        "walk approximated" => "albedo without what was only mirrored, base 0.8",
+        "walk_albedo" => "share of walks that leave after one bounce, against the quadrature",
+        "walk_energy" => "all that comes back from mirrors, against 1",
+        _ => "",
+    }
+}
+
+fn print(group: &[Row], as_json: bool, width: Width) -> Result<(), Failure> {
     if as_json {
         return group
             .iter()
@@ -132,39 +234,44 @@ fn print(group: &[Row], as_json: bool) -> Result<(), Failure> {
     let Some(first) = group.first() else {
         return Ok(());
     };
-    let mut text = format!("{}\n", first.group);
+    let mut text = match note(&first.group) {
+        "" => format!("{}\n", first.group),
+        note => format!("{}: {note}\n", first.group),
+    };
     for row in group {
-        text.push_str(&table_row(row));
+        text.push_str(&table_row(row, width));
     }
     output::text(&text)
 }
 
-fn table_row(row: &Row) -> String {
+fn table_row(row: &Row, width: Width) -> String {
     let share = row
         .limit_ratio
         .map(|ratio| format!("{:.0}%", 100.0 * ratio));
     let (share, needs) = (
         share.unwrap_or_default(),
-        row.needs.as_deref().unwrap_or_default(),
+        row.needs.clone().unwrap_or_default(),
     );
     let error = |error| match row.error_unit {
         "none" => "-".to_owned(),
+        "relative" if error == 0.0 => "0r".to_owned(),
         "relative" => format!("{error:.1e}r"),
         _ => short_error(error),
     };
-    let line = format!(
-        "{} {:<27} {:<3} {:<8} {:>8} {:>7} {share:>5} {needs:<4} {:>8} {:>8} {:>8}",
-        if row.pareto { '*' } else { ' ' },
-        row.variant,
-        row.precision,
-        row.isa,
-        short(row.ns),
-        short(row.meval_s()),
-        error(row.max_ulp),
-        error(row.p999_ulp),
-        error(row.median_ulp),
-    );
-    format!("{}\n", line.trim_end())
+    Cells {
+        star: if row.pareto { '*' } else { ' ' },
+        variant: &row.variant,
+        precision: row.precision,
+        isa: row.isa,
+        ns: short(row.ns),
+        meval_s: short(row.meval_s()),
+        share,
+        needs,
+        worst: error(row.max_ulp),
+        p999: error(row.p999_ulp),
+        median: error(row.median_ulp),
+    }
+    .line(width)
 }
 
 /// About four digits.
@@ -248,7 +355,13 @@ mod tests {
     }
 
     #[test]
-    fn the_table_fits_a_hundred_columns() {
+    fn the_table_fits() {
+        check_table_fits(Width::Full, 100);
+        check_table_fits(Width::Narrow, 80);
+    }
+
+    #[track_caller]
+    fn check_table_fits(width: Width, columns: usize) {
         for ns in [0.2, 12.3, 4_321_987.0] {
             for (error, unit) in [
                 (0.0, "none"),
@@ -258,11 +371,14 @@ mod tests {
                 (3e38, "ulp of f64"),
                 (f64::INFINITY, "ulp"),
             ] {
-                let line = table_row(&row(ns, error, unit));
-                assert!(line.trim_end().width() <= 100, "{line}");
+                let line = table_row(&row(ns, error, unit), width);
+                assert!(line.trim_end().width() <= columns, "{line}");
             }
         }
-        assert!(heading().lines().all(|line| line.width() <= 100));
+        // The sentences above the table may be broken by the terminal.
+        let heading = heading(width);
+        let last = heading.lines().last().unwrap_or_default();
+        assert!(last.contains("worst") && last.width() <= columns, "{last}");
     }
 
     #[track_caller]

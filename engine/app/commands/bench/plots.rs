@@ -4,14 +4,14 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use renders::{PlotSpec, plot_png, plot_svg};
+use renders::{Dot, PlotSpec, Shape, plot_png, plot_svg};
 use truth::bench::Row;
 
 use crate::exit::Failure;
 
 const SIZE: (u32, u32) = (1200, 800);
 
-/// Errors below this are drawn at it: on a logarithmic axis 0 has no place.
+/// Errors below these are drawn at them: on a logarithmic axis 0 has no place.
 const LEAST_ULP: f64 = 0.1;
 const LEAST_RELATIVE: f64 = 1e-8;
 
@@ -20,88 +20,165 @@ struct Picture {
     file: &'static str,
     title: &'static str,
     holds: fn(&Row) -> bool,
-    /// What a point is called.
+    /// What has one colour, and a line from point to point.
+    colour: fn(&Row) -> String,
+    shape: fn(&Row) -> Shape,
+    /// What the shapes are, as far as they occur.
+    shapes: &'static [(Shape, &'static str)],
+    /// What stands beside a point, where there is room.
     label: fn(&Row) -> String,
+    /// Whether all points are ways to the same, so that one front goes through them.
+    same: bool,
 }
 
 const PICTURES: &[Picture] = &[
     Picture {
         file: "batches",
-        title: "Batches: each line is one loop, from its name to AVX2 and AVX-512",
-        holds: |row| row.error_unit == "ulp" && is_batch(row),
-        label: |row| match row.isa {
-            "baseline" => format!("{}/{}", row.group, row.variant),
-            isa => isa.to_owned(),
-        },
+        title: "Whole lobes, conductors, samples: many at once",
+        holds: |row| row.error_unit == "ulp" && brdf::term(&row.group).is_none(),
+        colour: |row| format!("{}/{}", row.group, row.variant),
+        ..FORMS
     },
     Picture {
         file: "distributions",
-        title: "Distributions: from the textbook form (naive) to the stable one",
-        holds: |row| single(row, &["d_"]),
-        label: name_of_form,
+        title: "Distributions D: as printed, stable, and in lanes",
+        holds: |row| form(row, &["d_"]),
+        ..FORMS
+    },
+    Picture {
+        file: "masking",
+        title: "Masking Λ and G1: as printed, stable, and in lanes",
+        holds: |row| form(row, &["lambda_", "g1_"]),
+        ..FORMS
     },
     Picture {
         file: "shadowing",
-        title: "Smith's shadowing: from the textbook form (naive) to the stable one",
-        holds: |row| single(row, &["lambda_", "g1_", "g2_", "v_ggx"]),
-        label: name_of_form,
+        title: "Shadowing G2 and visibility V: as printed, stable, and in lanes",
+        holds: |row| form(row, &["g2_", "v_ggx"]),
+        ..FORMS
     },
     Picture {
         file: "classic-shadowing",
-        title: "The classic shadowing functions, one call of each",
-        holds: |row| single(row, &["gsf_"]),
-        label: name_of_form,
+        title: "The classic shadowing functions without roughness",
+        holds: |row| form(row, &["gsf_"]) && !takes_roughness(row),
+        ..FORMS
     },
     Picture {
-        file: "fresnel-and-diffuse",
-        title: "Fresnel and diffuse: from the textbook form (naive) to the stable one",
-        holds: |row| single(row, &["f_", "diffuse_"]),
-        label: name_of_form,
+        file: "rough-shadowing",
+        title: "The classic shadowing functions with roughness",
+        holds: |row| form(row, &["gsf_"]) && takes_roughness(row),
+        ..FORMS
     },
     Picture {
-        file: "approximations",
-        title: "Approximations: each line leads from one to what it stands for",
-        holds: |row| row.group.contains(" for ") && !against_walks(row),
-        label: |row| row.variant.clone(),
+        file: "fresnel",
+        title: "Fresnel reflectance: as printed, stable, and in lanes",
+        holds: |row| form(row, &["f_schlick", "f_spher", "f_diel", "f_cond", "f_laz"]),
+        ..FORMS
+    },
+    Picture {
+        file: "diffuse",
+        title: "Diffuse models: as printed, stable, and in lanes",
+        holds: |row| form(row, &["diffuse_"]),
+        ..FORMS
+    },
+    Picture {
+        file: "approximate-shadowing",
+        title: "Approximations of shadowing, and what they stand for",
+        holds: |row| stands_for(row).is_some_and(|exact| exact.starts_with(['g', 'v'])),
+        ..APPROXIMATIONS
+    },
+    Picture {
+        file: "approximate-fresnel-and-diffuse",
+        title: "Approximations of Fresnel and of Oren-Nayar, and what they stand for",
+        holds: |row| stands_for(row).is_some_and(|exact| exact.starts_with(['f', 'd'])),
+        ..APPROXIMATIONS
     },
     Picture {
         file: "diffuse-and-walks",
-        title: "Diffuse light leaving a rough surface: two models against random walks",
-        holds: against_walks,
-        label: |row| row.variant.clone(),
+        title: "Diffuse light leaving a rough surface: two models, and random walks",
+        holds: |row| stands_for(row) == Some("walk"),
+        colour: |row| match row.variant.split_once(' ') {
+            Some((_, walks)) => format!("random {walks}"),
+            None => row.variant.clone(),
+        },
+        same: true,
+        ..APPROXIMATIONS
     },
     Picture {
         file: "albedo",
-        title: "Directional albedo: by quadrature, and by sampling",
-        holds: |row| row.group == "albedo",
-        label: |row| match row.variant.split_once(", ") {
-            Some((_, more)) if !more.starts_with("64 ") => more.to_owned(),
-            _ => row.variant.clone(),
+        title: "Directional albedo: quadrature, table, fits, samplers, and random walks",
+        holds: |row| row.group == "albedo" || row.group == "walk_albedo",
+        colour: |row| match row.variant.split_once([',', ' ']) {
+            _ if row.group == "walk_albedo" => format!("random walks, {}", row.precision),
+            Some(("fit", _)) => "published fits".to_owned(),
+            Some(("table", _)) => row.variant.clone(),
+            _ => row.variant.split(',').next().unwrap_or_default().to_owned(),
         },
+        shape: |_| Shape::Disc,
+        shapes: &[],
+        label: |row| match row.variant.split_once(", ") {
+            Some((count, "each")) => count.to_owned(),
+            Some((_, more)) => more.to_owned(),
+            None => row.variant.clone(),
+        },
+        same: true,
     },
 ];
 
-/// Walks take milliseconds: beside them the other approximations would be one point.
-fn against_walks(row: &Row) -> bool {
-    row.group.ends_with(" for walk")
+/// The ways to compute one term.
+const FORMS: Picture = Picture {
+    file: "",
+    title: "",
+    holds: |_| false,
+    colour: |row| row.group.clone(),
+    shape: |row| match (row.variant.as_str(), row.isa) {
+        ("naive", _) => Shape::Ring,
+        ("stable" | "call", _) => Shape::Disc,
+        (_, "avx2") => Shape::Diamond,
+        (_, "avx512") => Shape::Triangle,
+        _ => Shape::Square,
+    },
+    shapes: &[
+        (Shape::Ring, "one call, as printed"),
+        (Shape::Disc, "one call, stable"),
+        (Shape::Square, "batch"),
+        (Shape::Diamond, "batch, AVX2"),
+        (Shape::Triangle, "batch, AVX-512"),
+    ],
+    label: |_| String::new(),
+    same: false,
+};
+
+/// A line from each approximation to what it stands for.
+const APPROXIMATIONS: Picture = Picture {
+    colour: |row| format!("for {}", stands_for(row).unwrap_or_default()),
+    shape: |row| match stands_for(row) {
+        Some(exact) if exact != row.variant => Shape::Ring,
+        _ => Shape::Disc,
+    },
+    shapes: &[
+        (Shape::Ring, "approximation"),
+        (Shape::Disc, "what it stands for, in single precision"),
+    ],
+    label: |row| row.variant.clone(),
+    ..FORMS
+};
+
+/// What the rows of a group approximate.
+fn stands_for(row: &Row) -> Option<&str> {
+    row.group.strip_suffix(" approximated")
 }
 
-fn is_batch(row: &Row) -> bool {
-    brdf::term(&row.group).is_none() && !row.group.contains(" for ")
-}
-
-/// One call of a term in single precision whose name starts like this.
-fn single(row: &Row, starts: &[&str]) -> bool {
+/// A way to compute a term in single precision whose name starts like this.
+fn form(row: &Row, starts: &[&str]) -> bool {
     row.error_unit == "ulp"
         && brdf::term(&row.group).is_some()
         && starts.iter().any(|start| row.group.starts_with(start))
 }
 
-fn name_of_form(row: &Row) -> String {
-    match row.variant.as_str() {
-        "stable" => row.group.clone(),
-        variant => format!("{}, {variant}", row.group),
-    }
+fn takes_roughness(row: &Row) -> bool {
+    brdf::term(&row.group)
+        .is_some_and(|term| term.params.iter().any(|param| param.name == "roughness"))
 }
 
 /// Draws everything that there are rows for into a folder; the files written.
@@ -130,31 +207,31 @@ fn spec(picture: &Picture, rows: &[&Row], machine: &str) -> PlotSpec {
     let (least, unit) = if relative {
         (LEAST_RELATIVE, "relative")
     } else {
-        (LEAST_ULP, "ulp of f32")
+        (LEAST_ULP, "units in the last place of f32")
     };
     let point = |row: &Row| (row.ns, row.max_ulp.max(least));
-    let mut lines: Vec<(String, Vec<(f64, f64)>)> = Vec::new();
+    let mut series: Vec<(String, Vec<(f64, f64)>)> = Vec::new();
+    let mut dots = Vec::new();
     for row in rows {
-        let key = line_of(row);
-        match lines.iter_mut().find(|line| line.0 == key) {
-            Some((_, points)) => points.push(point(row)),
-            None => lines.push((key, vec![point(row)])),
-        }
+        let name = (picture.colour)(row);
+        let index = match series.iter().position(|series| series.0 == name) {
+            Some(index) => index,
+            None => {
+                series.push((name, Vec::new()));
+                series.len() - 1
+            }
+        };
+        series[index].1.push(point(row));
+        dots.push(Dot {
+            series: index,
+            shape: (picture.shape)(row),
+            at: point(row),
+            label: (picture.label)(row),
+            outlined: row.pareto && !picture.same,
+        });
     }
-    // The points are labelled; a legend would say the same again.
-    let lines = lines.into_iter().map(|(_, points)| (String::new(), points));
-    let mut marks: Vec<(String, f64, f64)> = Vec::new();
-    for row in rows {
-        let (x, y) = point(row);
-        let mut label = (picture.label)(row);
-        // What several approximations stand for is one name at nearly one place.
-        let exact =
-            row.group.contains(" for ") && !row.group.starts_with(&format!("{} for", row.variant));
-        if exact && marks.iter().any(|mark| mark.0 == label) {
-            label.clear();
-        }
-        marks.push((label, x, y));
-    }
+    let mut shapes = picture.shapes.to_vec();
+    shapes.retain(|(shape, _)| dots.iter().any(|dot| dot.shape == *shape));
     let floor = if rows.iter().any(|row| row.max_ulp < least) {
         format!("; {least} or less at the bottom")
     } else {
@@ -163,27 +240,34 @@ fn spec(picture: &Picture, rows: &[&Row], machine: &str) -> PlotSpec {
     PlotSpec {
         title: picture.title.to_owned(),
         x_label: format!("nanoseconds for one evaluation, {machine}"),
-        y_label: format!("worst error at random points, {unit}{floor}"),
+        y_label: format!("worst error found, {unit}{floor}"),
         x_log: true,
         y_log: true,
-        scatter: true,
-        series: lines.collect(),
-        marks,
+        series,
+        dots,
+        shapes: shapes
+            .into_iter()
+            .map(|(shape, says)| (shape, says.to_owned()))
+            .collect(),
+        front: if picture.same {
+            front(rows.iter().map(|row| point(row)).collect())
+        } else {
+            Vec::new()
+        },
+        ..PlotSpec::default()
     }
 }
 
-/// Rows with the same name are joined by a line.
-fn line_of(row: &Row) -> String {
-    if row.group == "albedo" {
-        // One line a sampler, over its numbers of samples.
-        let sampler = row.variant.split(',').next().unwrap_or_default();
-        return format!("albedo/{sampler}");
-    }
-    match row.variant.as_str() {
-        "f64" | "stable" | "naive" => row.group.clone(),
-        _ if row.group.contains(" for ") => row.group.clone(),
-        variant => format!("{}/{variant}", row.group),
-    }
+/// The points that no other is both left of and below, from left to right.
+fn front(mut points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
+    points.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    let mut lowest = f64::INFINITY;
+    points.retain(|point| {
+        let better = point.1 < lowest;
+        lowest = lowest.min(point.1);
+        better
+    });
+    points
 }
 
 #[cfg(test)]
@@ -203,18 +287,20 @@ mod tests {
             p999_ulp: max_ulp,
             median_ulp: 0.0,
             error_unit: if group == "albedo" { "relative" } else { "ulp" },
-            pareto: false,
+            pareto: true,
         }
     }
 
     #[test]
-    fn pictures_name_every_point() {
+    fn pictures_name_what_they_show() {
         let rows = [
             row("d_ggx", "stable", "baseline", 4.0, 7.0),
             row("d_ggx", "naive", "baseline", 3.0, 2e6),
+            row("d_ggx", "batch", "avx2", 0.5, 7.0),
             row("specular", "batch", "baseline", 1.2, 9.0),
             row("specular", "batch", "avx2", 0.6, 9.0),
             row("albedo", "quadrature", "baseline", 9e3, 0.0),
+            row("albedo", "cosine, 16 samples", "baseline", 9e2, 0.5),
         ];
         let folder = tempfile::tempdir().expect("a folder");
         let files = write(&rows, "a machine", folder.path()).expect("plots");
@@ -236,11 +322,24 @@ mod tests {
         let svg = |index: usize| fs::read_to_string(&files[index]).expect("text");
         for (index, label) in [
             (0, "specular/batch"),
-            (0, "avx2"),
-            (2, "d_ggx, naive"),
+            (0, "batch, AVX2"),
+            (0, "nanoseconds for one evaluation, a machine"),
+            (2, "d_ggx"),
+            (2, "one call, as printed"),
+            (2, "units in the last place"),
             (4, "quadrature"),
+            (4, "16 samples"),
+            (4, "Pareto front"),
+            (4, "relative; 0.00000001 or less at the bottom"),
         ] {
             assert!(svg(index).contains(label), "{label}");
         }
+        assert!(!svg(0).contains("Pareto front:"));
+    }
+
+    #[test]
+    fn a_front_is_what_nothing_beats() {
+        let points = vec![(2.0, 2.0), (1.0, 3.0), (3.0, 2.5), (2.0, 1.0), (4.0, 0.5)];
+        assert_eq!(front(points), [(1.0, 3.0), (2.0, 1.0), (4.0, 0.5)]);
     }
 }

@@ -1,143 +1,240 @@
-//! Each approximation against what it approximates, and the ways to an albedo.
+//! Each approximation against what it approximates, and what that costs.
 
-use super::{Effort, Errors, Numbers, Row, opaque, time};
-use brdf::walk::{Facets, walk};
-use brdf::{AlbedoTable, Ggx, Sampler, Term, albedo_ggx, diffuse_hammon, diffuse_lambert, term};
+use super::{Effort, Numbers, Row, opaque, time};
+use crate::stress::{Precision, possible};
+use brdf::walk::Split;
+use brdf::{Ggx, Term, diffuse_hammon, diffuse_lambert, f_conductor, f_schlick, term};
 
-/// How the arguments of the exact term follow from those of its approximation.
-type Convert = fn(&[f64]) -> Vec<f64>;
-
-/// What stands for what: the approximation and the exact term.
-const PAIRS: &[(&str, &str, Convert)] = &[
-    ("v_ggx_hammon", "v_ggx", <[f64]>::to_vec),
-    ("v_ggx_separable", "v_ggx", <[f64]>::to_vec),
-    ("g2_ggx_hammon", "g2_ggx", <[f64]>::to_vec),
-    ("g1_beckmann_rational", "g1_beckmann", <[f64]>::to_vec),
-    ("gsf_schlick_ggx", "g2_ggx_separable", <[f64]>::to_vec),
-    ("gsf_schlick_beckmann", "g2_beckmann", |x| {
-        vec![x[0], x[1], x[2] * x[2]]
-    }),
-    ("gsf_smith_beckmann", "g2_beckmann", |x| {
-        vec![x[0], x[1], x[2] * x[2]]
-    }),
-    ("f_spherical_gaussian", "f_schlick", <[f64]>::to_vec),
-    ("f_schlick_ior", "f_dielectric", <[f64]>::to_vec),
-    (
-        "diffuse_oren_nayar",
-        "diffuse_oren_nayar_full",
-        <[f64]>::to_vec,
-    ),
-];
-
-pub(super) fn groups(effort: Effort) -> Vec<Vec<Row>> {
-    let pairs = PAIRS.iter().filter_map(|&(name, exact, convert)| {
-        Some(pair(effort, term(name)?, term(exact)?, convert))
-    });
-    pairs
-        .chain([diffuse(effort), albedo(effort), table(effort)])
-        .collect()
+/// An approximation, what it stands for, and arguments for both.
+struct Pair {
+    approximation: &'static str,
+    exact: &'static str,
+    draw: fn(&Term, &mut Numbers) -> [Vec<f64>; 2],
 }
 
-fn row(group: &str, variant: &str, ns: f64, errors: Errors) -> Row {
-    Row {
-        group: group.into(),
-        variant: variant.into(),
-        precision: "f32",
-        isa: "baseline",
-        ns,
-        limit_ratio: None,
-        needs: None,
-        max_ulp: errors.max,
-        p999_ulp: errors.p999,
-        median_ulp: errors.median,
-        error_unit: "relative",
-        pareto: false,
+/// Where both take the same arguments.
+const fn same(approximation: &'static str, exact: &'static str) -> Pair {
+    Pair {
+        approximation,
+        exact,
+        draw: |term, numbers| {
+            let args = drawn(term, numbers);
+            [args.clone(), args]
+        },
     }
 }
 
-fn pair(effort: Effort, term: &Term, exact: &Term, convert: Convert) -> Vec<Row> {
-    let mut numbers = Numbers(1);
-    let mut draw = || -> Vec<f64> {
-        term.params
-            .iter()
-            .map(|p| f64::from(numbers.between(p.range) as f32))
-            .collect()
-    };
-    let points: Vec<Vec<f64>> = (0..effort.points.max(256)).map(|_| draw()).collect();
-    let narrow = |args: &[f64]| args.iter().map(|&x| x as f32).collect::<Vec<f32>>();
-    let measure = |f: fn(&[f32]) -> f32, single: &[Vec<f32>]| {
-        time(effort, single.len(), || {
-            for args in single {
-                opaque(f(opaque(args)));
+/// Where the last argument of the approximation is a roughness and that of the exact α.
+const fn squared(approximation: &'static str, exact: &'static str) -> Pair {
+    Pair {
+        approximation,
+        exact,
+        draw: |term, numbers| {
+            let args = drawn(term, numbers);
+            let mut alpha = args.clone();
+            if let Some(last) = alpha.last_mut() {
+                *last *= *last;
             }
-        })
-    };
-    let error = |f: fn(&[f32]) -> f32, args: &[f64], given: &[f64]| {
-        let truth = (exact.f64)(&convert(args));
-        let value = f64::from(f(&narrow(given)));
-        (value - truth).abs() / truth.abs().max(1e-3)
-    };
-    let own: Vec<Vec<f32>> = points[..256].iter().map(|args| narrow(args)).collect();
-    let converted: Vec<Vec<f32>> = points[..256]
-        .iter()
-        .map(|args| narrow(&convert(args)))
-        .collect();
-    let approximate = points
-        .iter()
-        .map(|args| error(term.f32, args, args))
-        .collect();
-    let direct = points
-        .iter()
-        .map(|args| error(exact.f32, args, &convert(args)))
-        .collect();
-    let group = format!("{} for {}", term.name, exact.name);
-    vec![
-        row(
-            &group,
-            term.name,
-            measure(term.f32, &own),
-            Errors::of(approximate),
-        ),
-        row(
-            &group,
-            exact.name,
-            measure(exact.f32, &converted),
-            Errors::of(direct),
-        ),
-    ]
+            [args, alpha]
+        },
+    }
 }
 
-/// Walks from each point: their mean is good to about half a percent.
-const WALKS: u32 = 20_000;
+/// A dielectric's index for its reflectance at normal incidence.
+fn eta(f0: f64) -> f64 {
+    (1.0 + f0.sqrt()) / (1.0 - f0.sqrt())
+}
 
-/// Diffuse models against random walks between coated diffuse facets: how much of the light
-/// leaves again without being only mirrored, by view and alpha.
+/// n and k of gold, silver, copper and aluminium for red, green and blue, and of chromium.
+const METALS: &[(f64, f64)] = &[
+    (0.143, 3.983),
+    (0.375, 2.386),
+    (1.442, 1.603),
+    (0.155, 4.828),
+    (0.117, 3.122),
+    (0.138, 2.147),
+    (0.200, 3.912),
+    (0.924, 2.452),
+    (1.102, 2.142),
+    (1.657, 9.224),
+    (0.880, 6.270),
+    (0.521, 4.837),
+    (3.180, 3.310),
+];
+
+/// A metal's n and k and a cosine.
+fn metal(numbers: &mut Numbers) -> (f64, f64, f64) {
+    let (n, k) = METALS[(numbers.unit() * METALS.len() as f64) as usize % METALS.len()];
+    (n, k, numbers.between((0.01, 1.0)))
+}
+
+/// Lazányi's a so that the exact reflectance is met at cos θ = 1/7, where a u (1 − u)⁶ is largest.
+fn depth(n: f64, k: f64) -> f64 {
+    let (u, f0) = (1.0 / 7.0, f_conductor(n, k, 1.0));
+    (f_schlick(f0, u) - f_conductor(n, k, u)) / (u * (1.0f64 - u).powi(6))
+}
+
+const PAIRS: &[Pair] = &[
+    same("v_ggx_hammon", "v_ggx"),
+    same("v_ggx_separable", "v_ggx"),
+    same("g2_ggx_hammon", "g2_ggx"),
+    same("g2_ggx_separable", "g2_ggx"),
+    same("g1_beckmann_rational", "g1_beckmann"),
+    same("gsf_schlick_ggx", "g2_ggx_separable"),
+    squared("gsf_schlick_beckmann", "g2_beckmann"),
+    squared("gsf_smith_beckmann", "g2_beckmann"),
+    same("f_spherical_gaussian", "f_schlick"),
+    Pair {
+        approximation: "f_schlick_ior",
+        exact: "f_dielectric",
+        draw: |_, numbers| {
+            // Water to diamond.
+            let args = vec![numbers.between((1.33, 2.42)), numbers.between((0.01, 1.0))];
+            [args.clone(), args]
+        },
+    },
+    Pair {
+        approximation: "f_schlick",
+        exact: "f_dielectric",
+        draw: |_, numbers| {
+            // The same.
+            let (f0, c) = (numbers.between((0.02, 0.17)), numbers.between((0.01, 1.0)));
+            [vec![f0, c], vec![eta(f0), c]]
+        },
+    },
+    Pair {
+        approximation: "f_spherical_gaussian",
+        exact: "f_dielectric",
+        draw: |_, numbers| {
+            let (f0, c) = (numbers.between((0.02, 0.17)), numbers.between((0.01, 1.0)));
+            [vec![f0, c], vec![eta(f0), c]]
+        },
+    },
+    Pair {
+        approximation: "f_schlick",
+        exact: "f_conductor",
+        draw: |_, numbers| {
+            let (n, k, c) = metal(numbers);
+            [vec![f_conductor(n, k, 1.0), c], vec![n, k, c]]
+        },
+    },
+    Pair {
+        approximation: "f_lazanyi",
+        exact: "f_conductor",
+        draw: |_, numbers| {
+            let (n, k, c) = metal(numbers);
+            [vec![f_conductor(n, k, 1.0), depth(n, k), c], vec![n, k, c]]
+        },
+    },
+    same("diffuse_oren_nayar", "diffuse_oren_nayar_full"),
+    Pair {
+        approximation: "diffuse_eon",
+        exact: "diffuse_oren_nayar_full",
+        draw: |term, numbers| {
+            // The roughness of EON is that standard deviation of the facets' angle.
+            let args = drawn(term, numbers);
+            let [l, v, l_dot_v, roughness, albedo] = args[..] else {
+                return [args.clone(), args];
+            };
+            let sines = ((1.0 - l) * (1.0 + l) * (1.0 - v) * (1.0 + v)).sqrt();
+            let cos_phi = ((l_dot_v - l * v) / sines).clamp(-1.0, 1.0);
+            [args, vec![l, v, cos_phi, roughness, albedo]]
+        },
+    },
+];
+
+pub(super) fn groups(effort: Effort) -> Vec<Vec<Row>> {
+    let mut groups: Vec<Vec<Row>> = Vec::new();
+    for pair in PAIRS {
+        let Some((approximate, exact)) = term(pair.approximation).zip(term(pair.exact)) else {
+            continue;
+        };
+        let rows = rows(effort, pair, approximate, exact);
+        // What several approximations stand for is measured with each, in one group.
+        match groups
+            .iter_mut()
+            .find(|group| group[0].group == pair.exact_group())
+        {
+            Some(group) => group.extend(rows.into_iter().take(1)),
+            None => groups.push(rows),
+        }
+    }
+    groups.push(diffuse(effort));
+    groups
+}
+
+impl Pair {
+    fn exact_group(&self) -> String {
+        format!("{} approximated", self.exact)
+    }
+}
+
+/// Possible arguments in the sensible ranges.
+fn drawn(term: &Term, numbers: &mut Numbers) -> Vec<f64> {
+    loop {
+        let argument = |p: &brdf::Param| f64::from(numbers.between(p.range) as f32);
+        let args: Vec<f64> = term.params.iter().map(argument).collect();
+        if possible(term, Precision::Single, &args) {
+            return args;
+        }
+    }
+}
+
+/// The approximation and, in single precision, what it stands for.
+fn rows(effort: Effort, pair: &Pair, term: &Term, exact: &Term) -> Vec<Row> {
+    const CALLS: usize = 256;
+    let mut numbers = Numbers(1);
+    let points: Vec<[Vec<f64>; 2]> = (0..effort.points.max(CALLS))
+        .map(|_| (pair.draw)(term, &mut numbers))
+        .collect();
+    let narrow = |args: &[f64]| args.iter().map(|&x| x as f32).collect::<Vec<f32>>();
+    let row = |of: &Term, which: usize| {
+        let single: Vec<Vec<f32>> = points[..CALLS]
+            .iter()
+            .map(|args| narrow(&args[which]))
+            .collect();
+        let ns = time(effort, CALLS, || {
+            for args in &single {
+                opaque((of.f32)(opaque(args)));
+            }
+        });
+        let error = |args: &[Vec<f64>; 2]| {
+            let truth = (exact.f64)(&args[1]);
+            // The full Oren-Nayar crosses 0.
+            let value = f64::from((of.f32)(&narrow(&args[which])));
+            (value - truth).abs() / truth.abs().max(1e-3)
+        };
+        let errors = points.iter().map(error).collect();
+        Row::new(pair.exact_group(), of.name, ns).with_errors("relative", errors)
+    };
+    vec![row(term, 0), row(exact, 1)]
+}
+
+/// Diffuse models against random walks between coated facets (Hammon's simulation): how much
+/// of the light leaves again without being only mirrored, by view and alpha.
 fn diffuse(effort: Effort) -> Vec<Row> {
+    const GROUP: &str = "walk approximated";
     const ALBEDO: f64 = 0.8;
-    const GROUP: &str = "diffuse_hammon for walk";
+    const F0: f64 = 0.02;
+    const WALKS: u32 = 20_000;
     let points: Vec<(f64, f64)> = [0.2, 0.5, 0.9]
         .into_iter()
         .flat_map(|mu| [0.1, 0.4, 0.8].map(|alpha| (mu, alpha)))
         .collect();
     let view = |mu: f64| [((1.0 - mu) * (1.0 + mu)).sqrt(), 0.0, mu];
-    let facets = Facets::Coated {
-        f0: 0.04,
-        albedo: ALBEDO,
-    };
-    let leaves = |&(mu, alpha): &(f64, f64), count: u32, seed: u64| {
+    let leaves = |&(mu, alpha): &(f64, f64), walks: u32, seed: u64| {
         let mut numbers = Numbers(seed);
         // The ends of the interval are no random numbers here.
-        let mut next = || numbers.unit().max(1e-12);
-        let walks = (0..count).filter_map(|_| walk(Ggx::new(alpha), facets, view(mu), &mut next));
-        let diffuse = walks
-            .filter(|exit| exit.diffuse > 0)
-            .map(|exit| exit.weight);
-        diffuse.sum::<f64>() / f64::from(count)
+        let next = || numbers.unit().max(1e-12);
+        Split::new(Ggx::new(alpha), F0, view(mu), walks, next).diffuse(ALBEDO)
     };
-    let truth: Vec<f64> = points.iter().map(|point| leaves(point, WALKS, 1)).collect();
-    let errors = |estimate: &dyn Fn(&(f64, f64)) -> f64| {
+    let truth: Vec<f64> = points
+        .iter()
+        .map(|point| leaves(point, 2 * WALKS, 1))
+        .collect();
+    let errors = |estimate: &dyn Fn(&(f64, f64)) -> f64| -> Vec<f64> {
         let error = |(point, truth): (_, &f64)| (estimate(point) - truth).abs() / truth;
-        Errors::of(points.iter().zip(&truth).map(error).collect())
+        points.iter().zip(&truth).map(error).collect()
     };
     let model = |name: &str, f: &dyn Fn([f64; 3], f64, f64) -> f64| {
         let (l, calls) = (view(0.6), points.len());
@@ -147,7 +244,7 @@ fn diffuse(effort: Effort) -> Vec<Row> {
             }
         });
         let estimate = |&(mu, alpha): &(f64, f64)| hemisphere(|l| f(l, mu, alpha));
-        row(GROUP, name, ns, errors(&estimate))
+        Row::new(GROUP, name, ns).with_errors("relative", errors(&estimate))
     };
     let hammon = |l: [f64; 3], mu: f64, alpha: f64| {
         let v = view(mu);
@@ -158,26 +255,26 @@ fn diffuse(effort: Effort) -> Vec<Row> {
         for point in &points {
             opaque(leaves(opaque(point), 16, 3));
         }
-    });
+    }) / 16.0;
     let mut rows = vec![
         model("diffuse_lambert", &|_, _, _| diffuse_lambert(ALBEDO)),
         model("diffuse_hammon", &hammon),
-        row(
-            GROUP,
-            "20,000 walks",
-            one / 16.0 * f64::from(WALKS),
-            errors(&|point| leaves(point, WALKS, 2)),
-        ),
     ];
-    for row in &mut rows {
-        row.precision = "f64";
+    for walks in [100, 1_000, 10_000] {
+        let estimate = |point: &_| leaves(point, walks, 2);
+        rows.push(
+            Row::new(GROUP, format!("{walks} walks"), one * f64::from(walks))
+                .with_errors("relative", errors(&estimate)),
+        );
     }
-    rows
+    rows.into_iter()
+        .map(|row| row.in_precision("f64"))
+        .collect()
 }
 
 /// ∫ f cos over the hemisphere, by midpoints in the squared cosine and the azimuth.
-fn hemisphere(f: impl Fn([f64; 3]) -> f64) -> f64 {
-    const COUNT: u32 = 48;
+pub(super) fn hemisphere(f: impl Fn([f64; 3]) -> f64) -> f64 {
+    const COUNT: u32 = 160;
     let mut sum = 0.0;
     for i in 0..COUNT {
         let z2 = (f64::from(i) + 0.5) / f64::from(COUNT);
@@ -188,97 +285,4 @@ fn hemisphere(f: impl Fn([f64; 3]) -> f64) -> f64 {
         }
     }
     sum * std::f64::consts::PI / f64::from(COUNT * COUNT)
-}
-
-/// What a table costs to make, which is paid once.
-fn table(effort: Effort) -> Vec<Row> {
-    let once = Effort {
-        time: effort.time / 10,
-        ..effort
-    };
-    let ns = time(once, 1, || {
-        opaque(AlbedoTable::new(opaque(64)));
-    });
-    let mut row = row("albedo_table", "64 x 64, made", ns, Errors::default());
-    row.error_unit = "none";
-    vec![row]
-}
-
-/// The albedo by quadrature, from a table, and by each sampler.
-fn albedo(effort: Effort) -> Vec<Row> {
-    let points: Vec<(f64, f64)> = [0.1, 0.3, 0.6, 0.95]
-        .into_iter()
-        .flat_map(|mu| [0.05, 0.2, 0.5, 1.0].map(|alpha| (mu, alpha)))
-        .collect();
-    let truth: Vec<f64> = points
-        .iter()
-        .map(|&(mu, alpha)| albedo_ggx(mu, alpha))
-        .collect();
-    let errors = |values: Vec<f64>| {
-        Errors::of(
-            values
-                .iter()
-                .zip(&truth)
-                .map(|(value, truth)| (value - truth).abs() / truth)
-                .collect(),
-        )
-    };
-    let quadrature = || {
-        points
-            .iter()
-            .map(|&(mu, alpha)| f64::from(albedo_ggx(mu as f32, alpha as f32)))
-    };
-    let ns = time(effort, points.len(), || {
-        opaque(quadrature().sum::<f64>());
-    });
-    let mut rows = vec![row(
-        "albedo",
-        "quadrature",
-        ns,
-        errors(quadrature().collect()),
-    )];
-    let table = AlbedoTable::new(64);
-    let look = |&(mu, alpha): &(f64, f64)| {
-        f64::from(table.get(opaque(mu as f32), opaque(alpha.sqrt() as f32)))
-    };
-    let ns = time(effort, points.len(), || {
-        opaque(points.iter().map(look).sum::<f64>());
-    });
-    rows.push(row(
-        "albedo",
-        "table 64 x 64",
-        ns,
-        errors(points.iter().map(look).collect()),
-    ));
-    let samplers = [
-        ("hemisphere", Sampler::Hemisphere),
-        ("spherical cap", Sampler::SphericalCap),
-        ("bounded cap", Sampler::BoundedCap),
-        ("cosine", Sampler::Cosine),
-    ];
-    for (name, sampler) in samplers {
-        for count in [64u32, 1024] {
-            let estimate = |&(mu, alpha): &(f64, f64)| {
-                let (ggx, mu) = (Ggx::new(alpha as f32), mu as f32);
-                let v = [((1.0 - mu) * (1.0 + mu)).sqrt(), 0.0, mu];
-                let mut numbers = Numbers(1);
-                let mut draw = || {
-                    ggx.sample(v, [0; 2].map(|_| numbers.unit() as f32), sampler)
-                        .weight
-                };
-                f64::from((0..count).map(|_| draw()).sum::<f32>()) / f64::from(count)
-            };
-            let ns = time(effort, points.len(), || {
-                opaque(points.iter().map(estimate).sum::<f64>());
-            });
-            let variant = format!("{name}, {count} samples");
-            rows.push(row(
-                "albedo",
-                &variant,
-                ns,
-                errors(points.iter().map(estimate).collect()),
-            ));
-        }
-    }
-    rows
 }

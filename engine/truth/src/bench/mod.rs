@@ -8,9 +8,11 @@
 //! against the textbook forms in high precision, at random points of the sensible ranges; the
 //! search for the worst points is [`crate::stress`].
 
+mod albedo;
 mod approximations;
 mod batches;
 mod cores;
+mod energy;
 mod terms;
 
 use std::hint::black_box;
@@ -48,6 +50,44 @@ pub struct Row {
 }
 
 impl Row {
+    /// A row of single precision in the baseline, with nothing known but its time.
+    pub fn new(group: impl Into<String>, variant: impl Into<String>, ns: f64) -> Row {
+        Row {
+            group: group.into(),
+            variant: variant.into(),
+            precision: "f32",
+            isa: "baseline",
+            ns,
+            limit_ratio: None,
+            needs: None,
+            max_ulp: 0.0,
+            p999_ulp: 0.0,
+            median_ulp: 0.0,
+            error_unit: "none",
+            pareto: false,
+        }
+    }
+
+    /// The row with its errors; NaN counts as infinitely wrong.
+    pub fn with_errors(mut self, error_unit: &'static str, errors: Vec<f64>) -> Row {
+        let errors = Errors::of(errors);
+        self.error_unit = error_unit;
+        (self.max_ulp, self.p999_ulp, self.median_ulp) = (errors.max, errors.p999, errors.median);
+        self
+    }
+
+    /// The row, in another precision.
+    pub fn in_precision(mut self, precision: &'static str) -> Row {
+        self.precision = precision;
+        self
+    }
+
+    /// The row, with another set of instructions.
+    pub fn on(mut self, isa: &'static str) -> Row {
+        self.isa = isa;
+        self
+    }
+
     /// Million evaluations a second.
     pub fn meval_s(&self) -> f64 {
         1e3 / self.ns
@@ -66,8 +106,8 @@ pub struct Effort {
 impl Effort {
     /// Everything in some ten seconds.
     pub const QUICK: Effort = Effort {
-        time: Duration::from_millis(20),
-        points: 500,
+        time: Duration::from_millis(10),
+        points: 1_000,
     };
     /// Everything in a few minutes.
     pub const FULL: Effort = Effort {
@@ -140,6 +180,12 @@ pub fn run(effort: Effort, limits: &[Limit], mut done: impl FnMut(&[Row])) -> Ve
     }
     add(cores::rows(effort, limits));
     for group in approximations::groups(effort) {
+        add(group);
+    }
+    for group in albedo::groups(effort) {
+        add(group);
+    }
+    for group in energy::groups(effort) {
         add(group);
     }
     all

@@ -1,17 +1,20 @@
-//! Every term by itself: f64, f32 as printed, f32 stable.
+//! Every term by itself: f64, f32 as printed, f32 stable, and in lanes.
 
-use super::{Effort, Errors, Numbers, Row, opaque, time};
-use crate::stress::{Precision, error, possible, ulps};
-use crate::{naive, value};
+use super::{Effort, Numbers, Row, opaque, time};
+use crate::stress::{Precision, error_against, possible, ulps};
+use crate::{Big, naive, value};
 use brdf::Term;
+use brdf::batch::Isa;
 
 /// Arguments that the time of a call is averaged over.
 const CALLS: usize = 256;
+/// The same of a batch, so that what begins and ends a loop weighs little.
+const LANES: usize = 1024;
+/// Terms that cost more are quadratures.
+const QUADRATURE: u32 = 10_000;
 
 pub(super) fn rows(term: &'static Term, effort: Effort) -> Vec<Row> {
     let mut numbers = Numbers(1);
-    let quadrature = term.cost > 10_000;
-    let calls = if quadrature { 4 } else { CALLS };
     let mut draw = || -> Vec<f64> {
         loop {
             // Rounded, so that all variants get the same arguments.
@@ -22,108 +25,90 @@ pub(super) fn rows(term: &'static Term, effort: Effort) -> Vec<Row> {
             }
         }
     };
-    let points: Vec<Vec<f64>> = (0..calls).map(|_| draw()).collect();
+    if term.cost > QUADRATURE {
+        return quadrature(term, effort, &[0; 4].map(|_| draw()));
+    }
+    let samples: Vec<Vec<f64>> = (0..effort.points.max(LANES)).map(|_| draw()).collect();
+    let points = &samples[..CALLS];
     let single: Vec<Vec<f32>> = points.iter().map(|args| narrow(args)).collect();
-    let closed = value(term.name, &points[0]).is_some();
-    let samples: Vec<Vec<f64>> = if closed {
-        (0..effort.points).map(|_| draw()).collect()
-    } else {
-        points.clone()
+    let truths: Vec<(usize, Big)> = (0..effort.points)
+        .filter_map(|i| Some((i, value(term.name, &samples[i])?)))
+        .collect();
+    let errors = |precision, result: &dyn Fn(usize) -> f64| -> Vec<f64> {
+        let error = |(i, truth): &(usize, Big)| {
+            error_against(truth, term, precision, &samples[*i], result(*i))
+        };
+        truths.iter().map(error).collect()
     };
 
-    let row = |variant: &str, precision: Precision, ns: f64, errors: Errors, error_unit| Row {
-        group: term.name.into(),
-        variant: variant.into(),
-        precision: precision.name(),
-        isa: "baseline",
-        ns,
-        limit_ratio: None,
-        needs: None,
-        max_ulp: errors.max,
-        p999_ulp: errors.p999,
-        median_ulp: errors.median,
-        error_unit,
-        pareto: false,
-    };
-    let double = time(effort, calls, || {
-        for args in &points {
+    let ns = time(effort, CALLS, || {
+        for args in points {
             opaque((term.f64)(opaque(args)));
         }
     });
-    let time_single = |f: fn(&[f32]) -> f32| {
-        time(effort, calls, || {
+    let double = errors(Precision::Double, &|i| (term.f64)(&samples[i]));
+    let call = |f: fn(&[f32]) -> f32| {
+        time(effort, CALLS, || {
             for args in &single {
                 opaque(f(opaque(args)));
             }
         })
     };
-    if !closed {
-        // Without a closed form single precision is measured against double.
-        let relative = |args: &Vec<f64>| {
-            let truth = (term.f64)(args);
-            (f64::from((term.f32)(&narrow(args))) - truth).abs() / truth.abs()
-        };
-        let errors = Errors::of(samples.iter().map(relative).collect());
-        return vec![
-            row(
-                "quadrature",
-                Precision::Double,
-                double,
-                Errors::default(),
-                "none",
-            ),
-            row(
-                "quadrature",
-                Precision::Single,
-                time_single(term.f32),
-                errors,
-                "relative",
-            ),
-        ];
-    }
-    let of = |precision| {
-        Errors::of(
-            samples
-                .iter()
-                .map(|args| error(term, precision, args))
-                .collect(),
-        )
-    };
+    let stable = errors(Precision::Single, &|i| {
+        f64::from((term.f32)(&narrow(&samples[i])))
+    });
     let mut rows = vec![
-        row(
-            "f64",
-            Precision::Double,
-            double,
-            of(Precision::Double),
-            "ulp of f64",
-        ),
-        row(
-            "stable",
-            Precision::Single,
-            time_single(term.f32),
-            of(Precision::Single),
-            "ulp",
-        ),
+        Row::new(term.name, "f64", ns)
+            .in_precision("f64")
+            .with_errors("ulp of f64", double),
+        Row::new(term.name, "stable", call(term.f32)).with_errors("ulp", stable),
     ];
     if let Some(form) = naive::form(term.name) {
-        let error = |args: &Vec<f64>| {
-            let truth = value(term.name, args)?;
-            Some(ulps(
-                &truth,
-                f64::from(form(&narrow(args))),
-                Precision::Single,
-            ))
+        let error = |(i, truth): &(usize, Big)| {
+            let result = f64::from(form(&narrow(&samples[*i])));
+            ulps(truth, result, Precision::Single)
         };
-        let errors = Errors::of(samples.iter().filter_map(error).collect());
-        rows.push(row(
-            "naive",
-            Precision::Single,
-            time_single(form),
-            errors,
-            "ulp",
-        ));
+        let errors = truths.iter().map(error).collect();
+        rows.push(Row::new(term.name, "naive", call(form)).with_errors("ulp", errors));
+    }
+    let column = |i: usize| samples.iter().map(|args| args[i] as f32).collect();
+    let columns: Vec<Vec<f32>> = (0..term.params.len()).map(column).collect();
+    let mut out = vec![0.0; samples.len()];
+    for isa in Isa::available() {
+        let args: Vec<&[f32]> = columns.iter().map(Vec::as_slice).collect();
+        (term.batch)(isa, &args, &mut out);
+        let errors = errors(Precision::Single, &|i| f64::from(out[i]));
+        let ns = time(effort, LANES, || {
+            (term.batch)(isa, opaque(&args), opaque(&mut out[..LANES]));
+        });
+        let row = Row::new(term.name, "batch", ns).on(isa.name());
+        rows.push(row.with_errors("ulp", errors));
     }
     rows
+}
+
+/// Without a closed form single precision is measured against double.
+fn quadrature(term: &'static Term, effort: Effort, points: &[Vec<f64>]) -> Vec<Row> {
+    let single: Vec<Vec<f32>> = points.iter().map(|args| narrow(args)).collect();
+    let double = time(effort, points.len(), || {
+        for args in points {
+            opaque((term.f64)(opaque(args)));
+        }
+    });
+    let ns = time(effort, points.len(), || {
+        for args in &single {
+            opaque((term.f32)(opaque(args)));
+        }
+    });
+    let relative = |(args, narrow): (&Vec<f64>, &Vec<f32>)| {
+        let truth = (term.f64)(args);
+        (f64::from((term.f32)(narrow)) - truth).abs() / truth.abs()
+    };
+    let errors = points.iter().zip(&single).map(relative).collect();
+    vec![
+        Row::new(term.name, "quadrature", double).in_precision("f64"),
+        Row::new(term.name, "quadrature", ns).with_errors("relative", errors),
+    ]
 }
 
 fn narrow(args: &[f64]) -> Vec<f32> {
