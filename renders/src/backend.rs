@@ -133,6 +133,16 @@ impl DrawingBackend for CanvasBackend<'_> {
         Ok(())
     }
 
+    fn fill_polygon<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(
+        &mut self,
+        corners: I,
+        style: &S,
+    ) -> Drawn {
+        let corners: Vec<(f32, f32)> = corners.into_iter().map(|point| self.pixel(point)).collect();
+        self.canvas.polygon(&corners, rgb(style.color()).0);
+        Ok(())
+    }
+
     fn draw_circle<S: BackendStyle>(
         &mut self,
         center: BackendCoord,

@@ -149,6 +149,38 @@ impl Canvas {
         }
     }
 
+    /// Fills a polygon, each pixel by the share of it that lies inside.
+    pub fn polygon(&mut self, corners: &[(f32, f32)], colour: Rgb) {
+        const SIDE: i32 = 4;
+        let range = |of: fn(&(f32, f32)) -> f32| {
+            let values = corners.iter().map(of);
+            let (low, high) = values.fold((f32::MAX, f32::MIN), |(low, high), x| {
+                (low.min(x), high.max(x))
+            });
+            low.floor() as i32..=high.ceil() as i32
+        };
+        // A ray to the right crosses the edges an odd number of times.
+        let inside = |x: f32, y: f32| {
+            let edges = corners.iter().zip(corners.iter().cycle().skip(1));
+            let crossed = edges.filter(|(a, b)| {
+                (a.1 > y) != (b.1 > y) && x < a.0 + (y - a.1) / (b.1 - a.1) * (b.0 - a.0)
+            });
+            crossed.count() % 2 == 1
+        };
+        for y in range(|corner| corner.1) {
+            for x in range(|corner| corner.0) {
+                let samples = (0..SIDE * SIDE).filter(|i| {
+                    let at = |i: i32| (i as f32 + 0.5) / SIDE as f32;
+                    inside(x as f32 + at(i % SIDE), y as f32 + at(i / SIDE))
+                });
+                let coverage = samples.count() as f32 / (SIDE * SIDE) as f32;
+                if coverage > 0.0 {
+                    self.blend(x, y, colour, coverage);
+                }
+            }
+        }
+    }
+
     /// A filled circle.
     pub fn disc(&mut self, x: f32, y: f32, radius: f32, colour: Rgb) {
         self.stroke(&[(x, y), (x, y)], 2.0 * radius, colour, 1.0);

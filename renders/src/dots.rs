@@ -168,7 +168,7 @@ impl Chart<'_> {
         let (Some(first), Some(last)) = (front.first(), front.last()) else {
             return Ok(());
         };
-        let mut stairs = vec![(frame.x(x_axis, first.0), frame.top)];
+        let mut stairs = vec![(frame.x(x_axis, first.0), frame.top + 0.25 * self.em)];
         for &(x, y) in front {
             let (x, y) = (frame.x(x_axis, x), frame.y(y_axis, y));
             if let Some(&(_, above)) = stairs.last() {
@@ -176,7 +176,7 @@ impl Chart<'_> {
             }
             stairs.push((x, y));
         }
-        stairs.push((frame.right, frame.y(y_axis, last.1)));
+        stairs.push((frame.right - 0.25 * self.em, frame.y(y_axis, last.1)));
         pen.path(&stairs, 0.5 * self.em, self.theme.front, 1.0)
     }
 
@@ -194,7 +194,7 @@ impl Chart<'_> {
             dots.filter(|dot| x_axis.holds(dot.at.0) && y_axis.holds(dot.at.1))
         };
         for dot in dots() {
-            taken.disc(place(dot.at), 0.45 * self.em);
+            taken.disc(place(dot.at), 0.55 * self.em);
         }
         for dot in dots() {
             let (at, colour) = (place(dot.at), self.colour(dot.series));
@@ -206,10 +206,11 @@ impl Chart<'_> {
         for dot in dots().filter(|dot| !dot.label.is_empty()) {
             let width = f64::from(text::width(&dot.label, letters as f32, Weight::Regular));
             let bounds = (frame.left, frame.top, frame.right, frame.bottom);
-            if let Some(room) = taken.place_if_free(place(dot.at), width, letters, bounds) {
-                let ink = self.theme.ink;
-                let style = Style::new(letters as f32, Weight::Regular, Align::Left, ink);
-                pen.text(room.0, room.3 - 0.2 * letters, style, &dot.label)?;
+            if let Some(room) = taken.place_if_free(place(dot.at), width, self.em, bounds) {
+                // In the colour of the dot, which may be a little way off.
+                let colour = self.colour(dot.series);
+                let style = Style::new(letters as f32, Weight::Regular, Align::Left, colour);
+                pen.text(room.0, room.3 - 0.35 * letters, style, &dot.label)?;
             }
         }
         Ok(())

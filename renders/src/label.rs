@@ -64,6 +64,8 @@ impl Taken {
             y - height / 2.0,
             y - 1.6 * em - height,
             y + 1.6 * em,
+            y - 2.7 * em - height,
+            y + 2.7 * em,
         ];
         let mut best = (f64::INFINITY, (x + gap, y - height, x + gap + width, y));
         for (order, (&top, &left)) in heights

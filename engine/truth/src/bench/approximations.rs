@@ -183,8 +183,9 @@ fn drawn(term: &Term, numbers: &mut Numbers) -> Vec<f64> {
 /// The approximation and, in single precision, what it stands for.
 fn rows(effort: Effort, pair: &Pair, term: &Term, exact: &Term) -> Vec<Row> {
     const CALLS: usize = 256;
+    const POINTS: usize = 4096;
     let mut numbers = Numbers(1);
-    let points: Vec<[Vec<f64>; 2]> = (0..effort.points.max(CALLS))
+    let points: Vec<[Vec<f64>; 2]> = (0..effort.points.max(POINTS))
         .map(|_| (pair.draw)(term, &mut numbers))
         .collect();
     let narrow = |args: &[f64]| args.iter().map(|&x| x as f32).collect::<Vec<f32>>();

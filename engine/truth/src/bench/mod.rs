@@ -99,7 +99,7 @@ impl Row {
 pub struct Effort {
     /// For the time of each row.
     pub time: Duration,
-    /// Points at which the error of each row is taken.
+    /// Points at which the error of double precision is taken, and that of approximations.
     pub points: usize,
 }
 
@@ -107,7 +107,7 @@ impl Effort {
     /// Everything in some ten seconds.
     pub const QUICK: Effort = Effort {
         time: Duration::from_millis(10),
-        points: 1_000,
+        points: 200,
     };
     /// Everything in a few minutes.
     pub const FULL: Effort = Effort {
@@ -280,7 +280,7 @@ impl Errors {
         }
         errors.sort_by(f64::total_cmp);
         let at = |share: f64| {
-            let index = (share * errors.len() as f64) as usize;
+            let index = (share * errors.len().saturating_sub(1) as f64) as usize;
             errors
                 .get(index.min(errors.len().saturating_sub(1)))
                 .copied()

@@ -10,6 +10,8 @@ use brdf::batch::Isa;
 const CALLS: usize = 256;
 /// The same of a batch, so that what begins and ends a loop weighs little.
 const LANES: usize = 1024;
+/// Points at which single precision is measured: enough for one in a thousand to mean something.
+const POINTS: usize = 4096;
 /// Terms that cost more are quadratures.
 const QUADRATURE: u32 = 10_000;
 
@@ -28,25 +30,32 @@ pub(super) fn rows(term: &'static Term, effort: Effort) -> Vec<Row> {
     if term.cost > QUADRATURE {
         return quadrature(term, effort, &[0; 4].map(|_| draw()));
     }
-    let samples: Vec<Vec<f64>> = (0..effort.points.max(LANES)).map(|_| draw()).collect();
+    let samples: Vec<Vec<f64>> = (0..effort.points.max(POINTS)).map(|_| draw()).collect();
     let points = &samples[..CALLS];
     let single: Vec<Vec<f32>> = points.iter().map(|args| narrow(args)).collect();
     let truths: Vec<(usize, Big)> = (0..effort.points)
         .filter_map(|i| Some((i, value(term.name, &samples[i])?)))
         .collect();
-    let errors = |precision, result: &dyn Fn(usize) -> f64| -> Vec<f64> {
+    let errors = |truths: &[(usize, Big)], precision, result: &dyn Fn(usize) -> f64| {
         let error = |(i, truth): &(usize, Big)| {
             error_against(truth, term, precision, &samples[*i], result(*i))
         };
-        truths.iter().map(error).collect()
+        truths.iter().map(error).collect::<Vec<f64>>()
     };
+    let double = errors(&truths, Precision::Double, &|i| (term.f64)(&samples[i]));
+    // Double precision, just measured, is truth enough for single at the rest of the points.
+    let rest = (effort.points..samples.len()).filter_map(|i| {
+        let value = (term.f64)(&samples[i]);
+        value.is_finite().then(|| (i, Big::new(value, 64)))
+    });
+    let truths: Vec<(usize, Big)> = truths.into_iter().chain(rest).collect();
+    let errors = |result: &dyn Fn(usize) -> f64| errors(&truths, Precision::Single, result);
 
     let ns = time(effort, CALLS, || {
         for args in points {
             opaque((term.f64)(opaque(args)));
         }
     });
-    let double = errors(Precision::Double, &|i| (term.f64)(&samples[i]));
     let call = |f: fn(&[f32]) -> f32| {
         time(effort, CALLS, || {
             for args in &single {
@@ -54,14 +63,10 @@ pub(super) fn rows(term: &'static Term, effort: Effort) -> Vec<Row> {
             }
         })
     };
-    let stable = errors(Precision::Single, &|i| {
-        f64::from((term.f32)(&narrow(&samples[i])))
-    });
     let mut rows = vec![
         Row::new(term.name, "f64", ns)
             .in_precision("f64")
             .with_errors("ulp of f64", double),
-        Row::new(term.name, "stable", call(term.f32)).with_errors("ulp", stable),
     ];
     if let Some(form) = naive::form(term.name) {
         let error = |(i, truth): &(usize, Big)| {
@@ -71,13 +76,15 @@ pub(super) fn rows(term: &'static Term, effort: Effort) -> Vec<Row> {
         let errors = truths.iter().map(error).collect();
         rows.push(Row::new(term.name, "naive", call(form)).with_errors("ulp", errors));
     }
+    let stable = errors(&|i| f64::from((term.f32)(&narrow(&samples[i]))));
+    rows.push(Row::new(term.name, "stable", call(term.f32)).with_errors("ulp", stable));
     let column = |i: usize| samples.iter().map(|args| args[i] as f32).collect();
     let columns: Vec<Vec<f32>> = (0..term.params.len()).map(column).collect();
     let mut out = vec![0.0; samples.len()];
     for isa in Isa::available() {
         let args: Vec<&[f32]> = columns.iter().map(Vec::as_slice).collect();
         (term.batch)(isa, &args, &mut out);
-        let errors = errors(Precision::Single, &|i| f64::from(out[i]));
+        let errors = errors(&|i| f64::from(out[i]));
         let ns = time(effort, LANES, || {
             (term.batch)(isa, opaque(&args), opaque(&mut out[..LANES]));
         });
