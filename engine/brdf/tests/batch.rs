@@ -246,7 +246,7 @@ fn short_and_hostile() {
 }
 
 #[test]
-fn every_term_runs_in_lanes() {
+fn every_term_is_the_same_in_lanes() {
     const COUNT: usize = 100;
     for term in terms().iter().filter(|term| term.cost < 10_000) {
         let column = |(i, param): (usize, &Param)| -> Vec<f32> {
@@ -258,25 +258,24 @@ fn every_term_runs_in_lanes() {
         };
         let columns: Vec<Vec<f32>> = term.params.iter().enumerate().map(column).collect();
         let slices: Vec<&[f32]> = columns.iter().map(Vec::as_slice).collect();
+        let wide: Vec<Vec<f64>> = columns
+            .iter()
+            .map(|column| column.iter().map(|&x| f64::from(x)).collect())
+            .collect();
+        let doubles: Vec<&[f64]> = wide.iter().map(Vec::as_slice).collect();
         for isa in Isa::available() {
-            // One element more than there are arguments: it must not be touched.
-            let mut out = vec![-7.0f32; COUNT + 1];
-            (term.batch)(isa, &slices, &mut out);
-            assert_eq!(out[COUNT], -7.0);
+            let (mut single, mut double) = (vec![0.0; COUNT], vec![0.0; COUNT]);
+            (term.f32_block)(isa, &slices, &mut single);
+            (term.f64_block)(isa, &doubles, &mut double);
             for k in 0..COUNT {
-                let args: Vec<f32> = columns.iter().map(|column| column[k]).collect();
-                let single = (term.f32)(&args);
-                let close = (out[k] - single).abs() <= 1e-5 * single.abs().max(1e-3);
-                assert!(
-                    close || (out[k].is_nan() && single.is_nan()),
-                    "{} {}: {} for {single} at {args:?}",
-                    term.name,
-                    isa.name(),
-                    out[k]
-                );
+                let args: Vec<f64> = wide.iter().map(|column| column[k]).collect();
+                let narrow: Vec<f32> = columns.iter().map(|column| column[k]).collect();
+                let name = format!("{} {} at {args:?}", term.name, isa.name());
+                assert_eq!(single[k].to_bits(), (term.f32)(&narrow).to_bits(), "{name}");
+                assert_eq!(double[k].to_bits(), (term.f64)(&args).to_bits(), "{name}");
             }
-            (term.batch)(isa, &[], &mut out);
-            assert!(out.iter().all(|x| x.is_nan()));
+            (term.f32_block)(isa, &[], &mut single);
+            assert!(single.iter().all(|x| x.is_nan()));
         }
     }
 }

@@ -42,7 +42,9 @@ pub(super) fn rows(term: &'static Term, effort: Effort) -> Vec<Row> {
         };
         truths.iter().map(error).collect::<Vec<f64>>()
     };
-    let double = errors(&truths, Precision::Double, &|i| (term.f64)(&samples[i]));
+    let exact = truths.clone();
+    let in_double = |result: &dyn Fn(usize) -> f64| errors(&exact, Precision::Double, result);
+    let double = in_double(&|i| (term.f64)(&samples[i]));
     // Double precision, just measured, is truth enough for single at the rest of the points.
     let rest = (effort.points..samples.len()).filter_map(|i| {
         let value = (term.f64)(&samples[i]);
@@ -78,15 +80,27 @@ pub(super) fn rows(term: &'static Term, effort: Effort) -> Vec<Row> {
     }
     let stable = errors(&|i| f64::from((term.f32)(&narrow(&samples[i]))));
     rows.push(Row::new(term.name, "stable", call(term.f32)).with_errors("ulp", stable));
-    let column = |i: usize| samples.iter().map(|args| args[i] as f32).collect();
-    let columns: Vec<Vec<f32>> = (0..term.params.len()).map(column).collect();
-    let mut out = vec![0.0; samples.len()];
+    let columns: Vec<Vec<f64>> = (0..term.params.len())
+        .map(|i| samples.iter().map(|args| args[i]).collect())
+        .collect();
+    let doubles: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+    let narrowed: Vec<Vec<f32>> = columns.iter().map(|column| narrow(column)).collect();
+    let singles: Vec<&[f32]> = narrowed.iter().map(Vec::as_slice).collect();
+    let (mut out, mut out_double) = (vec![0.0; samples.len()], vec![0.0; samples.len()]);
     for isa in Isa::available() {
-        let args: Vec<&[f32]> = columns.iter().map(Vec::as_slice).collect();
-        (term.batch)(isa, &args, &mut out);
+        (term.f64_block)(isa, &doubles, &mut out_double);
+        let errors_double = in_double(&|i| out_double[i]);
+        let ns = time(effort, LANES, || {
+            (term.f64_block)(isa, opaque(&doubles), opaque(&mut out_double[..LANES]));
+        });
+        let row = Row::new(term.name, "batch", ns)
+            .in_precision("f64")
+            .on(isa.name());
+        rows.push(row.with_errors("ulp of f64", errors_double));
+        (term.f32_block)(isa, &singles, &mut out);
         let errors = errors(&|i| f64::from(out[i]));
         let ns = time(effort, LANES, || {
-            (term.batch)(isa, opaque(&args), opaque(&mut out[..LANES]));
+            (term.f32_block)(isa, opaque(&singles), opaque(&mut out[..LANES]));
         });
         let row = Row::new(term.name, "batch", ns).on(isa.name());
         rows.push(row.with_errors("ulp", errors));
