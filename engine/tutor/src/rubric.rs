@@ -61,7 +61,7 @@ pub struct Misconception {
     /// Ways to say the contrary; an answer that says one of them does not hold it.
     #[serde(default)]
     pub against: Vec<String>,
-    /// Expectations that, once met, make the same words harmless: "it is dim" is no mistake
+    /// Criteria that, once heard, make the same words harmless: "it is dim" is no mistake
     /// in an answer that also says where.
     #[serde(default)]
     pub unless: Vec<String>,

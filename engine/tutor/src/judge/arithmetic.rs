@@ -28,7 +28,12 @@ fn term(tokens: &[Token], at: usize, depth: usize) -> Option<(f64, usize)> {
     loop {
         let divide = is(tokens, next, &["/", "over"])
             || (is(tokens, next, &["by", "on"]) && number(tokens, next.wrapping_sub(1)).is_some());
-        let divided_by = is(tokens, next, &["divided"]) && is(tokens, next + 1, &["by", "through"]);
+        let divided_by = is(tokens, next, &["divided"])
+            && is(
+                tokens,
+                next + 1,
+                &["by", "through", "for", "with", "over", "on"],
+            );
         let divided = is(tokens, next, &["divided"]) && number(tokens, next + 1).is_some();
         let times = is(tokens, next, &["*"]);
         let implicit = is(tokens, next, &["(", "pi"]) && !tokens[next].spaced && next > at;

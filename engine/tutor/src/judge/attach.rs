@@ -48,12 +48,20 @@ impl Reading {
             }
             // A place named before the talk turned to another surface is not its place.
             let since = |class: usize| about[class].as_ref().map_or(0, |a: &About| a.tokens.0);
+            let (place, surface) = (since(PLACE), since(SURFACE));
+            let parted = place < surface
+                && self.tokens[place..surface]
+                    .iter()
+                    .rev()
+                    .take(20)
+                    .any(|t| t.is(";"));
             if about[PLACE].as_ref().is_some_and(|a| a.held < Held::Local)
                 && (since(MATERIAL) > since(PLACE)
                     || since(SURFACE) > since(PLACE)
-                        && about[PLACE]
-                            .as_ref()
-                            .is_some_and(|a| a.held == Held::Remembered))
+                        && (parted
+                            || about[PLACE]
+                                .as_ref()
+                                .is_some_and(|a| a.held == Held::Remembered)))
             {
                 about[PLACE] = None;
             }
@@ -61,7 +69,7 @@ impl Reading {
             let statement = Statement {
                 concepts: found.concepts.clone(),
                 tokens: (found.start, found.end),
-                denied: self.denied[found.start],
+                denied: self.denied[found.start] && !self.forbidden(lexicon, found),
                 void: false,
                 guessed: false,
                 compared: false,
@@ -92,6 +100,22 @@ impl Reading {
             }
             self.statements.push(statement);
         }
+    }
+
+    /// "One should not divide a second time": so somebody does.
+    fn forbidden(&self, lexicon: &Lexicon, found: &Match) -> bool {
+        found
+            .concepts
+            .iter()
+            .any(|&id| lexicon.concept(id).name == "twice")
+            && (found.start.saturating_sub(8)..found.start).any(|i| {
+                self.sentence[i] == self.sentence[found.start]
+                    && matches!(
+                        self.tokens[i].word.as_str(),
+                        "should" | "must" | "ought" | "need" | "needs" | "may"
+                    )
+                    && (i + 1..(i + 4).min(found.start)).any(|j| self.tokens[j].is("not"))
+            })
     }
 
     /// What stands on the other side of "than".
@@ -160,10 +184,13 @@ impl Reading {
                     .all(|i| grammar::is_copula(&self.tokens[i].word) || self.tokens[i].is("not"))
             {
                 // "rim bright", "rim is bright"; yet "the reflection is weaker at the rim".
+                // and "his picture has a white edge".
                 if self.generic.contains(&prev.concept)
                     && let Some(m) = after_here.filter(|m| !self.generic.contains(&m.concept))
-                    && (found.end..m.start).any(|i| is_preposition(&self.tokens[i].word))
-                    && m.start - found.end <= 4
+                    && ((found.end..m.start).any(|i| is_preposition(&self.tokens[i].word))
+                        && m.start - found.end <= 4
+                        || (found.end..m.start).all(|i| is_state[i])
+                            && !is_state.get(m.end).copied().unwrap_or(false))
                 {
                     return local(m);
                 }
@@ -183,7 +210,19 @@ impl Reading {
             let of_only = gap.clone().any(|i| self.tokens[i].is("the"))
                 && !gap.clone().any(|i| self.tokens[i].is("of"));
             if adjectival && !of_only {
-                return local(m);
+                // "blown highlights along the outline".
+                let at = list[next..]
+                    .iter()
+                    .take(4)
+                    .find(|p| p.start > m.end && !self.generic.contains(&p.concept))
+                    .filter(|p| {
+                        self.generic.contains(&m.concept)
+                            && self.clause[p.start] == clause
+                            && p.start - m.end <= 3
+                            && is_preposition(&self.tokens[m.end].word)
+                            && !matches!(self.tokens[m.end].word.as_str(), "of" | "with" | "to")
+                    });
+                return local(at.unwrap_or(m));
             }
             let preposition = gap
                 .clone()
@@ -195,11 +234,25 @@ impl Reading {
                 && before.is_none_or(|prev| {
                     self.clause[prev.start] != clause
                         || found.start - prev.end > 3
+                        || preposition == Some(found.end)
+                            && (prev.end..found.start)
+                                .any(|i| self.tokens[i].is("and") || self.tokens[i].is(","))
                         || prev.class == PLACE
                 })
             {
                 return local(m);
             }
+        }
+        // "loses light where you face it and gains light where you graze it".
+        let right_behind = self.tokens.get(found.end).is_some_and(|t| t.is("where"))
+            && self.sentence[found.end] == self.sentence[found.start];
+        if let Some(m) = after.filter(|m| {
+            right_behind
+                && m.class == PLACE
+                && m.start <= found.end + 5
+                && self.sentence[m.start] == self.sentence[found.start]
+        }) {
+            return local(m);
         }
         if let Some(prev) = before.filter(|m| self.clause[m.start] == clause) {
             return local(prev);
@@ -269,11 +322,18 @@ impl Reading {
         let Some(earlier) = index.checked_sub(1).and_then(|i| list.get(i)) else {
             return m;
         };
-        let leads = (earlier.start.saturating_sub(3)..earlier.start)
-            .any(|i| is_preposition(&self.tokens[i].word));
+        let led = |m: &Mention, reach: usize| {
+            (m.start.saturating_sub(reach)..m.start).any(|i| is_preposition(&self.tokens[i].word))
+        };
         let same = self.clause[earlier.start] == self.clause[m.start]
             && !self.generic.contains(&earlier.concept);
-        if same && leads { earlier } else { m }
+        // "At the edge the reflection", "the rim in his picture".
+        let within = led(m, 2) && m.start - earlier.end <= 3;
+        if same && (led(earlier, 3) || within) {
+            earlier
+        } else {
+            m
+        }
     }
 
     /// Whether a sentence begins by taking up the one before: "There it is", "This".

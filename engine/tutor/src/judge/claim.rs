@@ -4,6 +4,7 @@
 use super::grammar;
 use super::lexicon::{CLASSES, Id, Lexicon, PLACE, QUANTITY, Role, SURFACE};
 use super::parse::{About, Held, Reading, Statement, starts_with};
+use super::spelling::is_preposition;
 use super::text::{Kind, Token};
 
 impl Reading {
@@ -43,6 +44,7 @@ impl Reading {
         self.pass_through(lexicon);
         self.take_back(lexicon);
         self.dismiss();
+        self.hearsay(lexicon);
         self.complete(lexicon);
     }
 
@@ -105,7 +107,8 @@ impl Reading {
                 .tokens
                 .get(end + 1)
                 .is_none_or(|t| t.kind != Kind::Word && t.kind != Kind::Value);
-            let trails = matches!(after, "too" | "also" | "likewise") && ends
+            let trails = matches!(after, "too" | "also" | "likewise" | "equally" | "similarly")
+                && ends
                 || after == "as" && self.tokens.get(end + 1).is_some_and(|t| t.is("well"));
             let leads = (start.saturating_sub(4)..start).any(|i| {
                 matches!(self.tokens[i].word.as_str(), "as" | "so")
@@ -129,6 +132,7 @@ impl Reading {
                 )
             }) && !self.statements[index..]
                 .iter()
+                .take(12)
                 .take_while(|s| s.clause == entity.clause)
                 .any(is_state);
             if !(trails || leads || above_all) {
@@ -149,8 +153,60 @@ impl Reading {
                 added.push(copy);
             }
         }
+        added.extend(self.answered(lexicon));
         self.statements.extend(added);
         self.statements.sort_by_key(|s| (s.tokens.0, s.tokens.1));
+    }
+
+    /// "N is not the normal of the facet, H is", "the rim is bright, the centre is not": a verb
+    /// alone says the same of another, or denies it.
+    fn answered(&self, lexicon: &Lexicon) -> Vec<Statement> {
+        let mut added = Vec::new();
+        let state = |s: &&Statement| {
+            s.concepts
+                .iter()
+                .any(|&id| lexicon.concept(id).role == Role::State)
+        };
+        for (index, other) in self.statements.iter().enumerate() {
+            let (start, end) = other.tokens;
+            let word = |i: usize| self.tokens.get(i).map_or("", |t| t.word.as_str());
+            let verb = matches!(
+                word(end),
+                "is" | "are" | "does" | "do" | "has" | "have" | "will"
+            );
+            let denied = word(end + 1) == "not";
+            let ends = self
+                .tokens
+                .get(end + 1 + usize::from(denied))
+                .is_none_or(|t| {
+                    t.kind != Kind::Word && t.kind != Kind::Value && t.kind != Kind::Op
+                });
+            if !verb || !ends || state(&other) {
+                continue;
+            }
+            let said = self.statements[..index]
+                .iter()
+                .rev()
+                .take(6)
+                .take_while(|s| s.sentence == other.sentence)
+                .find(|s| state(s) && s.tokens.1 <= start && s.clause != other.clause);
+            let Some(said) = said.filter(|s| s.denied != denied && !s.compared) else {
+                continue;
+            };
+            let mut copy = Statement {
+                denied,
+                clause: other.clause,
+                tokens: other.tokens,
+                ..said.clone()
+            };
+            for &id in &other.concepts {
+                if let Role::Entity(class) = lexicon.concept(id).role {
+                    copy.about[class] = other.about[class].clone();
+                }
+            }
+            added.push(copy);
+        }
+        added
     }
 
     /// For each clause, whether it says what ought to be rather than what is.
@@ -166,6 +222,9 @@ impl Reading {
                 && self.sentence[at] == self.sentence[at - 1]
             {
                 turned[self.clause[at - 1]] = true;
+                if self.tokens[at - 1].kind == Kind::Comma && at > 1 {
+                    turned[self.clause[at - 2]] = true;
+                }
             }
         }
         for (at, token) in self.tokens.iter().enumerate() {
@@ -202,7 +261,7 @@ impl Reading {
         let mut asks = false;
         let mut stated = false;
         for (at, token) in self.tokens.iter().enumerate() {
-            if first && token.kind == Kind::Word {
+            if first && matches!(token.kind, Kind::Word | Kind::Value) {
                 asks = grammar::asks(&token.word);
                 let next = self.tokens.get(at + 1).map(|t| t.word.as_str());
                 asked[self.sentence[at]] = next.is_some_and(|n| grammar::inverts(&token.word, n));
@@ -213,9 +272,11 @@ impl Reading {
                 let refused = self.tokens.get(at + 1).is_some_and(|next| {
                     matches!(
                         next.word.as_str(),
-                        "no" | "not" | "nope" | "never" | "nah" | "hardly"
+                        "no" | "not" | "nope" | "never" | "nah" | "hardly" | "wrong"
                     )
-                });
+                }) || starts_with(&self.tokens, at + 1, &["on", "the", "contrary"])
+                    || starts_with(&self.tokens, at + 1, &["quite", "the", "opposite"])
+                    || starts_with(&self.tokens, at + 1, &["that", "is", "a", "myth"]);
                 asked[self.sentence[at]] |= token.kind == Kind::Question && (asks || refused);
                 stated |= !first && token.kind != Kind::Question;
                 first = true;
@@ -280,7 +341,8 @@ impl Reading {
         let mut commas = vec![0usize; words.len()];
         let mut stops = vec![false; words.len()];
         for (at, token) in self.tokens.iter().enumerate() {
-            commas[self.sentence[at]] += usize::from(token.kind == Kind::Comma);
+            let parts = token.kind == Kind::Comma || token.is(";");
+            commas[self.sentence[at]] += usize::from(parts);
             stops[self.sentence[at]] |= matches!(token.kind, Kind::Comma | Kind::Break);
         }
         (0..words.len())
@@ -309,6 +371,7 @@ impl Reading {
             })
             .collect();
         for marker in markers {
+            self.put_right(marker);
             let here = self.sentence[marker];
             let split = self.statements.partition_point(|s| s.tokens.0 < marker);
             let from = self.statements[..split]
@@ -329,12 +392,36 @@ impl Reading {
         }
     }
 
+    /// "from the roughness, sorry, from the index": the same preposition opens it again.
+    fn put_right(&mut self, marker: usize) {
+        let here = self.sentence[marker];
+        let Some(again) = (marker + 1..(marker + 6).min(self.tokens.len()))
+            .find(|&i| self.sentence[i] == here && is_preposition(&self.tokens[i].word))
+        else {
+            return;
+        };
+        let first = (marker.saturating_sub(9)..marker)
+            .rev()
+            .find(|&i| self.sentence[i] == here && self.tokens[i].word == self.tokens[again].word);
+        let Some(first) = first else { return };
+        for statement in &mut self.statements {
+            let at = statement.tokens.0;
+            statement.void |= first <= at && at < marker;
+        }
+    }
+
     fn dismiss(&mut self) {
         for at in 0..self.tokens.len() {
             if !grammar::DISMISSALS
                 .iter()
                 .any(|words| starts_with(&self.tokens, at, words))
             {
+                continue;
+            }
+            // "A white edge, which is wrong": the picture is, not who says so.
+            let first = self.sentence.partition_point(|&s| s < self.sentence[at]);
+            let spoken = (first..at).any(|i| grammar::speaks(&self.tokens[i].word));
+            if self.tokens[at].is("which") && !spoken {
                 continue;
             }
             let clause = self.clause[at];
@@ -412,7 +499,8 @@ impl Reading {
                     && !grammar::is_known(&token.word)
                     && !grammar::is_known(&self.forms[i].stem)
             });
-            if names && strange && !says {
+            let unknown = (start..end).any(|i| grammar::disclaims(&self.tokens, i));
+            if names && strange && !says && !unknown {
                 return Some((self.tokens[start].start, self.tokens[end - 1].end));
             }
             start = end;

@@ -61,7 +61,7 @@ pub fn denials(
                 matches!(word.kind, Kind::Break | Kind::Stop | Kind::Question) || word.is("->");
             let soft = word.kind == Kind::Comma
                 || grammar::ends_denial(&word.word)
-                || (word.is("and") && clause[end] != clause[at]);
+                || (word.is("and") && (clause[end] != clause[at] || begins_anew(tokens, end + 1)));
             let passed = wide && (word.kind == Kind::Comma || word.is("and"));
             // "instead of a bright one you get a dull one": the clause goes on without a comma.
             let subject = matches!(
@@ -98,6 +98,25 @@ pub fn denials(
     }
     less(lexicon, tokens, matches, &mut denied);
     denied
+}
+
+/// Whether a clause with a subject of its own begins here: "and if you", "and it".
+fn begins_anew(tokens: &[Token], at: usize) -> bool {
+    tokens.get(at).is_some_and(|t| {
+        matches!(
+            t.word.as_str(),
+            "if" | "it"
+                | "you"
+                | "we"
+                | "then"
+                | "so"
+                | "they"
+                | "i"
+                | "there"
+                | "when"
+                | "because"
+        )
+    })
 }
 
 /// What a denial behind it denies: "the facet's normal is not H", "1/pi is not the value",
@@ -180,6 +199,13 @@ fn less(lexicon: &Lexicon, tokens: &[Token], matches: &[Match], denied: &mut [bo
                 tokens[first.start].word.as_str(),
                 "less" | "least" | "little"
             );
+        // "a hard little sparkle": an adjective, no denial.
+        let is_less = is_less
+            && !(tokens[first.start].is("little")
+                && second
+                    .concepts
+                    .iter()
+                    .any(|&id| lexicon.concept(id).name == "small"));
         let measures = second
             .concepts
             .iter()

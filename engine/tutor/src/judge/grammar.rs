@@ -3,6 +3,8 @@
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
+use super::text::Token;
+
 /// Words that state nothing by themselves and that no typo is read into.
 const GLUE: &str = "a an the this that these those it its he she they we you i me my his her their our your one ones some any no not nor
 is are was were be been being am do does did done doing has have had having will would can could may might must shall should
@@ -64,7 +66,18 @@ leading matcher excluding blank underline logger walter timer units modes blake 
 easing electronic timers produces writer exclusion ports distributors pipes converted binding failing converters drive
 packet attention blame factory layer guest theme emulation sleep delay basect
 different written answer answers simple simpler simplest easy easier hard harder brighten allow allows allowed along follow follows followed
-mention mentioned minute minutes moment person version verse inverse universe adverse diverse notice notices noticed matches catch caught";
+mention mentioned minute minutes moment person version verse inverse universe adverse diverse notice notices noticed matches catch caught
+touch store scope extension possibly collection indicates terminate marker positional whenever connected prints printing
+displayed selection tasks task printer stage stages streams storing expensive functional respective containers termination
+constructing consists consisting caches splitting alive greek optimal brown bring brings worst stating relational
+slots picked forth stale death slight trans inefficient untie blink tuning chose broke decisions
+decision courts court wishes casts integrity themes socks binds cheat complexes piped speak picks
+pick risks finished thorough definitive tuned games game seeds explore wakes titled recreated assent
+commute probable intensive stock corruption formulation induce drives grown coats spoke heard steam lever
+plaint stain shake gravel waver batter mutter foster smite gross shave shirt sheep sweep
+sweet swear bread inlined derivation equivalence converting inherited inserted excepted situation situations raising explains
+interfaces indication exclusive exclusively presented correlation proposition promotion contracts warned hires looping loops display
+dumped naked";
 
 /// Whether a word is part of the language's machinery, or so common that no typo means it.
 pub fn is_known(word: &str) -> bool {
@@ -348,6 +361,97 @@ pub fn inverts(verb: &str, subject: &str) -> bool {
     );
     let full = !matches!(verb, "is" | "are") && subject == "the";
     helps && (known || full)
+}
+
+/// Verbs of saying and thinking.
+pub fn speaks(word: &str) -> bool {
+    matches!(
+        word,
+        "say"
+            | "says"
+            | "said"
+            | "claim"
+            | "claims"
+            | "claimed"
+            | "argue"
+            | "argues"
+            | "argued"
+            | "think"
+            | "thinks"
+            | "believe"
+            | "believes"
+            | "insist"
+            | "insists"
+            | "reckon"
+            | "reckons"
+            | "assume"
+            | "assumes"
+            | "suggest"
+            | "suggests"
+            | "told"
+            | "tell"
+            | "tells"
+    )
+}
+
+/// Words for people other than who speaks and who listens.
+pub fn names_others(word: &str) -> bool {
+    matches!(
+        word,
+        "he" | "she"
+            | "they"
+            | "some"
+            | "people"
+            | "everyone"
+            | "everybody"
+            | "others"
+            | "many"
+            | "most"
+            | "teacher"
+            | "professor"
+            | "prof"
+            | "colleague"
+            | "friend"
+            | "book"
+            | "books"
+            | "textbook"
+            | "someone"
+            | "somebody"
+            | "boss"
+    )
+}
+
+/// Verbs that weaken another.
+pub fn is_modal(word: &str) -> bool {
+    matches!(word, "might" | "may" | "could" | "would" | "can")
+}
+
+/// Whether somebody says here that he does not know, or speaks of answers instead of giving one.
+pub fn disclaims(tokens: &[Token], at: usize) -> bool {
+    let word = |i: usize| tokens.get(i).map_or("", |t| t.word.as_str());
+    match word(at) {
+        "dunno" | "idk" | "forgot" | "clueless" | "clue" | "unsure" | "described" | "rubric"
+        | "answered" | "marks" => true,
+        "no" => matches!(word(at + 1), "idea" | "clue"),
+        "not" => matches!(
+            word(at + 1),
+            "know"
+                | "remember"
+                | "recall"
+                | "sure"
+                | "certain"
+                | "tell"
+                | "say"
+                | "do"
+                | "solve"
+                | "work"
+                | "figure"
+                | "explain"
+                | "get"
+                | "understand"
+        ),
+        _ => false,
+    }
 }
 
 /// Words behind "is not" that deny that something comes of their subject.

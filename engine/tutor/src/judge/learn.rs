@@ -383,7 +383,8 @@ impl<'a> Desk<'a> {
             }
             self.find(c, answer, &heard)
         });
-        self.judge.decide(&self.marks[answer].text, findings)
+        self.judge
+            .decide(&self.marks[answer].text, &self.readings[answer], findings)
     }
 
     fn rows(&self, answers: &[usize], chosen: &[Weighed]) -> Vec<Row<'a>> {

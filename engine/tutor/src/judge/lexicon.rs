@@ -121,6 +121,24 @@ pub fn lexicon() -> &'static Lexicon {
     LEXICON.get_or_init(|| Lexicon::read(include_str!("lexicon.txt")))
 }
 
+/// The expressions that an entry stands for: `weak|dim lamp|light` is four, and `~` is no word.
+fn alternatives(entry: &str) -> Vec<String> {
+    let mut all = vec![String::new()];
+    for word in entry.split_whitespace() {
+        all = all
+            .iter()
+            .flat_map(|before| {
+                word.split('|').map(move |choice| match choice {
+                    "~" => before.clone(),
+                    _ if before.is_empty() => choice.to_owned(),
+                    _ => format!("{before} {choice}"),
+                })
+            })
+            .collect();
+    }
+    all
+}
+
 /// The stem of an English word.
 pub fn stem(word: &str) -> String {
     Stemmer::create(Algorithm::English).stem(word).into_owned()
@@ -167,7 +185,9 @@ impl Lexicon {
                 binary: head.contains(&"binary"),
             });
             for entry in words.split(',') {
-                lexicon.add(entry.trim(), id);
+                for spelled in alternatives(entry.trim()) {
+                    lexicon.add(&spelled, id);
+                }
             }
         }
         for (id, name) in antonyms {
@@ -348,7 +368,7 @@ fn matches(entry: &Entry, forms: &[Form], at: usize) -> Option<(usize, usize)> {
             }
             let inside = position > 0 && next < at + position + 2;
             let skipped = inside
-                && (is_filler(&form.word)
+                && (is_filler(&form.word) && !counted(position)
                     || is_article(&form.word) && (wanted.article || long && !counted(position)));
             if !skipped {
                 return None;

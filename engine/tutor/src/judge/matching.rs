@@ -8,7 +8,7 @@ use super::phrase::{Atom, Ears, Hit, PERHAPS};
 
 /// How well a word's senses meet those of a phrase. The first sense of a word is the one
 /// meant; two words that meet only in their further senses do not mean the same.
-fn senses(wanted: &[Id], said: &[Id], ears: Ears, as_said: impl Fn(Id) -> Option<Id>) -> f64 {
+fn senses(wanted: &[Id], said: &[Id], ears: Ears<'_>, as_said: impl Fn(Id) -> Option<Id>) -> f64 {
     let mut best: f64 = 0.0;
     for (i, &id) in said.iter().enumerate() {
         let Some(id) = as_said(id) else { continue };
@@ -31,7 +31,7 @@ impl Atom {
         &self,
         lexicon: &Lexicon,
         reading: &Reading,
-        ears: Ears,
+        ears: Ears<'_>,
         contrary: bool,
     ) -> BTreeMap<usize, Hit> {
         let mut hits = BTreeMap::new();
@@ -94,12 +94,10 @@ impl Atom {
                 continue;
             }
             score *= self.company(reading, statement);
+            let range = quote(reading, statement);
             let best: &mut Hit = hits.entry(statement.sentence).or_default();
-            if score > best.score + 1e-9 {
-                *best = Hit {
-                    score,
-                    range: quote(reading, statement),
-                };
+            if score > best.score + 1e-9 && !ears.deaf.contains(&range) {
+                *best = Hit { score, range };
             }
         }
         hits
@@ -110,7 +108,7 @@ impl Atom {
         &self,
         lexicon: &Lexicon,
         statement: &Statement,
-        ears: Ears,
+        ears: Ears<'_>,
         contrary: bool,
     ) -> f64 {
         let says = senses(&self.anchor, &statement.concepts, ears, Some);
@@ -133,7 +131,7 @@ impl Atom {
     }
 
     /// Is the statement about what the phrase is about?
-    fn topic(&self, lexicon: &Lexicon, statement: &Statement, ears: Ears) -> f64 {
+    fn topic(&self, lexicon: &Lexicon, statement: &Statement, ears: Ears<'_>) -> f64 {
         // What one sees of the spot says nothing of the cause behind it.
         let of_cause = !self.about[QUANTITY].is_empty() || !self.things.is_empty();
         let held = if self.things.is_empty() {

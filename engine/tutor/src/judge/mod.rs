@@ -10,6 +10,7 @@ mod denial;
 pub mod evaluate;
 mod examples;
 mod grammar;
+mod hearsay;
 pub mod learn;
 mod lexicon;
 mod matching;
@@ -33,7 +34,7 @@ use phrase::{Ears, Hit, PERHAPS, Phrase, STATED};
 use text::Token;
 
 /// Changes whenever the same answer may get another verdict; kept in every log.
-pub const JUDGE_VERSION: &str = "2";
+pub const JUDGE_VERSION: &str = "3";
 
 /// What an answer is worth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -112,6 +113,8 @@ struct Criterion {
     topics: Vec<u16>,
     /// Whether a pass needs it.
     required: bool,
+    /// Whether it keeps from passing.
+    blocking: bool,
 }
 
 /// A rubric made ready for judging.
@@ -172,6 +175,7 @@ impl Judge {
                 against: read(against),
                 unless: Vec::new(),
                 required: false,
+                blocking: false,
             }
         };
         let expectations = rubric.expectation.iter().map(|e| Criterion {
@@ -181,6 +185,7 @@ impl Judge {
         let misconceptions = rubric.misconception.iter().map(|m| Criterion {
             is_misconception: true,
             unless: m.unless.clone(),
+            blocking: m.blocking,
             ..criterion(&m.id, &m.phrases, &m.against)
         });
         let understood = setting.order[QUANTITY]
@@ -203,12 +208,17 @@ impl Judge {
         let findings = self
             .criteria
             .iter()
-            .map(|criterion| criterion.find(&reading, self.understood));
-        self.decide(answer, findings)
+            .map(|criterion| criterion.find(&reading, self.understood, &[]));
+        self.decide(answer, &reading, findings)
     }
 
     /// What follows from what was found on each criterion, in their order.
-    fn decide(&self, answer: &str, findings: impl Iterator<Item = Finding>) -> Judgement {
+    fn decide(
+        &self,
+        answer: &str,
+        reading: &Reading,
+        findings: impl Iterator<Item = Finding>,
+    ) -> Judgement {
         let mut judgement = Judgement {
             verdict: Verdict::Unsure,
             met: Vec::new(),
@@ -216,8 +226,14 @@ impl Judge {
             unsure: Vec::new(),
             why: Vec::new(),
         };
-        for (criterion, finding) in self.criteria.iter().zip(findings) {
-            if criterion.unless.iter().any(|id| judgement.met.contains(id)) {
+        let mut findings: Vec<Finding> = findings.collect();
+        self.count_words_once(reading, &mut findings);
+        let stated = |id: &String| {
+            let mut all = self.criteria.iter().zip(&findings);
+            all.any(|(c, found)| c.id == *id && matches!(found, Finding::Stated(_)))
+        };
+        for (criterion, finding) in self.criteria.iter().zip(&findings) {
+            if criterion.unless.iter().any(stated) {
                 continue;
             }
             let (list, hit) = match finding {
@@ -238,7 +254,6 @@ impl Judge {
                 });
             }
         }
-        self.count_words_once(&mut judgement);
         judgement.verdict = verdict(
             &self.rubric,
             &judgement.met,
@@ -270,28 +285,30 @@ impl Judge {
     }
 
     /// The same words are one slip, not two: where they say one that does not block, they are
-    /// not held against the learner under the name of one that does.
-    fn count_words_once(&self, judgement: &mut Judgement) {
-        let blocks = |id: &str| {
-            let mut all = self.rubric.misconception.iter();
-            all.find(|m| m.id == id).map(|m| m.blocking)
-        };
-        let why = &judgement.why;
-        let harmless =
-            |it: &&Why| blocks(&it.id) == Some(false) && judgement.misconceptions.contains(&it.id);
-        let spans: Vec<(usize, usize)> = why
+    /// not held against the learner under the name of one that does. Other words are.
+    fn count_words_once(&self, reading: &Reading, findings: &mut [Finding]) {
+        let harmless: Vec<(usize, usize)> = self
+            .criteria
             .iter()
-            .filter(harmless)
-            .map(|it| (it.start, it.end))
+            .zip(findings.iter())
+            .filter(|(c, _)| c.is_misconception && !c.blocking)
+            .filter_map(|(_, finding)| match finding {
+                Finding::Stated(hit) => Some(hit.range),
+                _ => None,
+            })
             .collect();
-        let excused: Vec<String> = why
-            .iter()
-            .filter(|it| blocks(&it.id) == Some(true) && spans.contains(&(it.start, it.end)))
-            .map(|it| it.id.clone())
-            .collect();
-        judgement.misconceptions.retain(|id| !excused.contains(id));
-        judgement.unsure.retain(|id| !excused.contains(id));
-        judgement.why.retain(|it| !excused.contains(&it.id));
+        if harmless.is_empty() {
+            return;
+        }
+        for (criterion, finding) in self.criteria.iter().zip(findings) {
+            let counted = match finding {
+                Finding::Stated(hit) | Finding::Perhaps(hit) => harmless.contains(&hit.range),
+                Finding::Absent => false,
+            };
+            if counted && criterion.blocking {
+                *finding = criterion.find(reading, self.understood, &harmless);
+            }
+        }
     }
 
     fn read(&self, answer: &str) -> Reading {
@@ -411,8 +428,11 @@ impl Judge {
 }
 
 impl Criterion {
-    fn find(&self, reading: &Reading, understood: u128) -> Finding {
-        let ears = self.ears(understood);
+    fn find(&self, reading: &Reading, understood: u128, deaf: &[(usize, usize)]) -> Finding {
+        let ears = Ears {
+            deaf,
+            ..self.ears(understood)
+        };
         let mut best = Hit::default();
         for phrase in &self.phrases {
             let hit = self.hear(phrase, reading, ears);
@@ -428,17 +448,18 @@ impl Criterion {
         self.settle(best, against, reading)
     }
 
-    fn ears(&self, understood: u128) -> Ears {
+    fn ears(&self, understood: u128) -> Ears<'static> {
         Ears {
             strict: self.is_misconception,
             understood,
+            deaf: &[],
         }
     }
 
     /// How well a phrase of this criterion is said.
-    fn hear(&self, phrase: &Phrase, reading: &Reading, ears: Ears) -> Hit {
+    fn hear(&self, phrase: &Phrase, reading: &Reading, ears: Ears<'_>) -> Hit {
         let mut hit = phrase.said(lexicon(), reading, ears);
-        if hit.score > 0.6 && !self.is_misconception && phrase.gainsaid(lexicon(), reading) {
+        if hit.score > 0.6 && phrase.gainsaid(lexicon(), reading) {
             // Said and gainsaid: which of the two stands is not for a machine to guess.
             hit.score = 0.6;
         }

@@ -7,7 +7,7 @@
 use super::denial::denials;
 use super::grammar;
 use super::lexicon::{CAUSE, CLASSES, Form, Id, Lexicon, MATERIAL, PLACE, Role, SURFACE};
-use super::refer::{resolve_ordinals, suppose};
+use super::refer::{in_order, resolve_ordinals, suppose, the_one_for};
 use super::text::{Kind, Token};
 
 /// How surely a statement is about something.
@@ -121,10 +121,16 @@ pub fn read(lexicon: &Lexicon, tokens: Vec<Token>, setting: &Setting, mute: &[bo
         .is_some_and(|artist| setting.order[CAUSE].contains(&artist));
     let without = (question_known && !artist).then_some(CAUSE);
     let mut matches = find(lexicon, &tokens, &forms, without);
+    // Where the question sets no two surfaces apart, a lone 0 or 1 names none.
+    if question_known && setting.order[SURFACE].len() < 2 {
+        matches.retain(|m| !tokens[m.start].word.starts_with("#rough"));
+    }
     let (clause, sentence) = clauses(lexicon, &tokens, &matches);
     let denied = denials(lexicon, &tokens, &matches, &clause, &sentence);
     suppose(lexicon, &tokens, &mut matches, &sentence, setting);
     resolve_ordinals(lexicon, &tokens, &mut matches, setting);
+    the_one_for(lexicon, &tokens, &mut matches, &sentence);
+    in_order(lexicon, &tokens, &mut matches, setting);
     let mut heard = vec![false; tokens.len()];
     for found in &matches {
         heard[found.start..found.end].fill(true);
@@ -268,7 +274,17 @@ fn clauses(lexicon: &Lexicon, tokens: &[Token], matches: &[Match]) -> (Vec<usize
         let goes_on = tokens.get(verb + 1).is_some_and(|t| {
             matches!(t.kind, Kind::Word | Kind::Value) && !matches!(t.word.as_str(), "and" | "or")
         });
+        // "a dead centre is": an adjective stands before its noun.
+        let ended = |&(_, end): &(usize, usize)| end == at;
+        let told = tokens[at].is("the")
+            || states[..states.partition_point(|s| s.0 < at)]
+                .iter()
+                .rev()
+                .take(3)
+                .filter(|s| ended(s))
+                .any(|s| s.0 > 0 && grammar::is_copula(&tokens[s.0 - 1].word));
         said[at]
+            && told
             && verb > 0
             && goes_on
             && tokens.get(verb).is_some_and(|t| {

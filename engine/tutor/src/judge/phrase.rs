@@ -19,15 +19,17 @@ const GAINSAID: f64 = 0.93;
 
 /// How to listen.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Ears {
+pub struct Ears<'a> {
     /// Whether what goes unnamed counts against a statement, as where a mistake is laid to
     /// somebody's charge.
     pub strict: bool,
     /// Quantities that the question itself asks about, which may go unnamed: a bit each.
     pub understood: u128,
+    /// Byte ranges that count already as something else.
+    pub deaf: &'a [(usize, usize)],
 }
 
-impl Ears {
+impl Ears<'_> {
     /// Whether one of these may go unnamed.
     pub fn understands(self, ids: &[Id]) -> bool {
         ids.iter()
@@ -151,7 +153,7 @@ impl Phrase {
     }
 
     /// How well a reading says the phrase: as well as it says its weakest part.
-    pub fn said(&self, lexicon: &Lexicon, reading: &Reading, ears: Ears) -> Hit {
+    pub fn said(&self, lexicon: &Lexicon, reading: &Reading, ears: Ears<'_>) -> Hit {
         let Some(first) = self.atoms.first() else {
             return Hit::default();
         };
@@ -191,7 +193,7 @@ impl Phrase {
                 }
             }
         }
-        highest(hits.values())
+        highest(hits.values().filter(|hit| !ears.deaf.contains(&hit.range)))
             .filter(|hit| hit.score >= PERHAPS)
             .unwrap_or_default()
     }

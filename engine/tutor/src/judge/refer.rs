@@ -1,8 +1,10 @@
 //! Words that stand for something named elsewhere: "the first", "the other", "if the light
 //! were weak".
 
+use std::collections::BTreeSet;
+
 use super::grammar;
-use super::lexicon::{CAUSE, Id, Lexicon, MATERIAL, PLACE, Role, SURFACE};
+use super::lexicon::{CAUSE, Id, Lexicon, MATERIAL, PLACE, QUANTITY, Role, SURFACE};
 use super::parse::{Match, Setting};
 use super::text::{Kind, Token};
 
@@ -22,14 +24,22 @@ pub fn suppose(
     };
     let ids = [lexicon.id("light"), lexicon.id("basecolour")];
     let mut found = Vec::new();
-    for at in (0..tokens.len()).filter(|&at| tokens[at].is("if") || tokens[at].is("were")) {
+    for at in (0..tokens.len())
+        .filter(|&at| tokens[at].is("if") || tokens[at].is("were") || tokens[at].is("would"))
+    {
         let first = matches.partition_point(|m| m.start < at);
         let names = matches[first..].iter().take(4).any(|m| {
             sentence[m.start] == sentence[at]
                 && m.start < at + 8
                 && m.concepts.iter().any(|&id| ids.contains(&Some(id)))
         });
-        if names {
+        // "The lamp would dim both alike."
+        let would =
+            tokens[at].is("would")
+                && matches[..first].iter().rev().take(2).any(|m| {
+                    m.end + 1 >= at && m.concepts.iter().any(|&id| ids.contains(&Some(id)))
+                });
+        if names && !tokens[at].is("would") || would {
             found.push(Match {
                 start: at,
                 end: at + 1,
@@ -60,6 +70,7 @@ pub fn resolve_ordinals(
     let mut named: Vec<Id> = Vec::new();
     let mut last: Option<Id> = None;
     let mut resolved: Vec<Match> = Vec::new();
+    let mut counted: BTreeSet<usize> = BTreeSet::new();
     let mut next = 0;
     for at in 0..tokens.len() {
         while next < matches.len() && matches[next].start < at {
@@ -104,12 +115,45 @@ pub fn resolve_ordinals(
                 | "version"
         ) || !is_word(tokens.get(at + 1));
         let stands_alone = after_article || names_one;
+        let any_other = at > 0
+            && matches!(
+                tokens[at - 1].word.as_str(),
+                "any" | "every" | "each" | "no" | "some" | "all" | "many" | "most"
+            );
         let order = if named.len() >= 2 {
             &named
         } else {
             &setting.order[class]
         };
+        let before = |back: usize| at.checked_sub(back).map_or("", |i| tokens[i].word.as_str());
+        // "from one end to the other".
+        let from_one = (2..6).any(|back| before(back) == "one" && before(back + 1) == "from");
+        // "In one case ..., in the other ...".
+        let in_the = before(1) == "the" && matches!(before(2), "in" | "on" | "for" | "with");
+        let case = matches!(before(1), "in" | "on" | "for")
+            && matches!(follows, "case" | "photo" | "picture" | "image" | "ball")
+            && tokens[at..].iter().take(40).any(|t| t.is("other"));
+        let other_than = |last: Option<Id>| {
+            let topic = last.or_else(|| order.first().copied());
+            let mut all = setting.order[class].iter().copied();
+            all.find(|&id| Some(id) != topic)
+        };
+        // "photo 1", "case 2".
+        let numbered = matches!(
+            word,
+            "photo"
+                | "picture"
+                | "image"
+                | "case"
+                | "ball"
+                | "number"
+                | "shot"
+                | "photograph"
+                | "surface"
+        );
         let id = match word {
+            _ if numbered && matches!(follows, "#1" | "one") => order.first().copied(),
+            _ if numbered && matches!(follows, "#2" | "two") => order.get(1).copied(),
             "first" | "former" | "1st" if stands_alone && follows != "place" => {
                 order.first().copied()
             }
@@ -118,12 +162,11 @@ pub fn resolve_ordinals(
             {
                 order.get(1).copied()
             }
+            "other" if any_other || from_one => None,
+            "other" if in_the => other_than(last),
+            "one" if case => order.first().copied(),
             "other" if names_one || (after_article && grammar::is_copula(follows)) => {
-                let topic = last.or_else(|| order.first().copied());
-                setting.order[class]
-                    .iter()
-                    .copied()
-                    .find(|&id| Some(id) != topic)
+                other_than(last)
             }
             _ => None,
         };
@@ -131,11 +174,15 @@ pub fn resolve_ordinals(
             .iter()
             .skip(next.saturating_sub(1))
             .take(2)
-            .any(|m| m.start <= at && at < m.end);
+            .any(|m| m.start < at && at < m.end || m.start == at && m.end > at + 2);
+        let taken = taken && !numbered;
         if let Some(id) = id
             && !taken
         {
             last = Some(id);
+            if numbered {
+                counted.insert(at + 1);
+            }
             resolved.push(Match {
                 start: at,
                 end: at + 1,
@@ -143,7 +190,134 @@ pub fn resolve_ordinals(
             });
         }
     }
+    matches.retain(|m| !counted.contains(&m.start));
     matches.extend(resolved);
+    matches.sort_by_key(|m| m.start);
+}
+
+/// "The histogram of the polished one has a peak, the one for the sandblasted ...": what the
+/// sentence spoke of first.
+pub fn the_one_for(
+    lexicon: &Lexicon,
+    tokens: &[Token],
+    matches: &mut Vec<Match>,
+    sentence: &[usize],
+) {
+    let mut found = Vec::new();
+    for at in 1..tokens.len().saturating_sub(1) {
+        let stands_for = matches!(tokens[at].word.as_str(), "one" | "that")
+            && (tokens[at].is("that") || tokens[at - 1].is("the"))
+            && matches!(tokens[at + 1].word.as_str(), "for" | "of" | "from");
+        if !stands_for {
+            continue;
+        }
+        let first = matches.partition_point(|m| sentence[m.start] < sentence[at]);
+        let meant = matches[first..]
+            .iter()
+            .take(3)
+            .take_while(|m| m.end <= at)
+            .flat_map(|m| &m.concepts)
+            .copied()
+            .find(|&id| lexicon.concept(id).role == Role::Entity(QUANTITY));
+        if let Some(id) = meant {
+            found.push(Match {
+                start: at,
+                end: at + 1,
+                concepts: vec![id],
+            });
+        }
+    }
+    matches.extend(found);
+    matches.sort_by_key(|m| m.start);
+}
+
+/// "0/0. 1/pi.", "narrow / flat": two answers that name neither surface come in the order in
+/// which the question names them.
+pub fn in_order(lexicon: &Lexicon, tokens: &[Token], matches: &mut Vec<Match>, setting: &Setting) {
+    let [first, second, ..] = setting.order[SURFACE].as_slice() else {
+        return;
+    };
+    let role = |m: &Match, wanted: Role| {
+        m.concepts
+            .iter()
+            .any(|&id| lexicon.concept(id).role == wanted)
+    };
+    opposed(lexicon, tokens, matches, (*first, *second));
+    if matches.iter().any(|m| role(m, Role::Entity(SURFACE))) {
+        return;
+    }
+    let mut segments: Vec<Option<usize>> = vec![None];
+    let mut said = matches.iter().filter(|m| role(m, Role::State)).peekable();
+    for (at, token) in tokens.iter().enumerate() {
+        if matches!(token.kind, Kind::Stop | Kind::Break | Kind::Question) || token.is("/") {
+            segments.push(None);
+        }
+        while let Some(found) = said.next_if(|m| m.start <= at) {
+            if let Some(segment) = segments.last_mut() {
+                segment.get_or_insert(found.start);
+            }
+        }
+    }
+    let said: Vec<usize> = segments.into_iter().flatten().collect();
+    if let &[one, other] = said.as_slice() {
+        for (at, id) in [(one, *first), (other, *second)] {
+            matches.push(Match {
+                start: at,
+                end: at + 1,
+                concepts: vec![id],
+            });
+        }
+        matches.sort_by_key(|m| m.start);
+    }
+}
+
+/// "normals all alike vs. all over the place": the one before is the one named first.
+fn opposed(lexicon: &Lexicon, tokens: &[Token], matches: &mut Vec<Match>, order: (Id, Id)) {
+    let ends = |t: &Token| matches!(t.kind, Kind::Stop | Kind::Break | Kind::Question);
+    let has = |m: &Match, wanted: Role| {
+        m.concepts
+            .iter()
+            .any(|&id| lexicon.concept(id).role == wanted)
+    };
+    let mut found = Vec::new();
+    let mut start = 0;
+    for at in 0..tokens.len() {
+        if ends(&tokens[at]) {
+            start = at + 1;
+        }
+        if !matches!(
+            tokens[at].word.as_str(),
+            "vs" | "versus" | "against" | "resp"
+        ) {
+            continue;
+        }
+        let to = matches.partition_point(|m| m.start < at);
+        let before: Vec<&Match> = matches[..to]
+            .iter()
+            .rev()
+            .take(6)
+            .take_while(|m| m.start >= start)
+            .collect();
+        let behind: Vec<&Match> = matches[to..]
+            .iter()
+            .take(6)
+            .take_while(|m| m.start < at + 20 && !tokens[at..m.start].iter().any(ends))
+            .collect();
+        let named = |m: &&&Match| has(m, Role::Entity(SURFACE));
+        if before.iter().chain(&behind).find(named).is_some() {
+            continue;
+        }
+        let state = |m: &&&Match| has(m, Role::State);
+        if let (Some(one), Some(other)) = (before.iter().find(state), behind.iter().find(state)) {
+            found.push((one.start, order.0));
+            found.push((other.start, order.1));
+        }
+    }
+    matches.extend(found.into_iter().map(|(at, id)| Match {
+        start: at,
+        end: at + 1,
+        concepts: vec![id],
+    }));
     matches.sort_by_key(|m| m.start);
 }
 

@@ -42,6 +42,8 @@ pub fn greek(c: char) -> Option<&'static str> {
 
 pub fn operator(c: char) -> Option<(&'static str, Kind)> {
     Some(match c {
+        '∋' | '⊃' | '⊇' => ("contains", Kind::Word),
+        '∈' | '⊂' | '⊆' => ("inside", Kind::Word),
         '→' | '⇒' | '⟶' | '⟹' | '↦' | '➔' | '➜' | '↗' | '⇾' => ("->", Kind::Op),
         '←' | '⇐' | '⟸' => ("<-", Kind::Op),
         '↑' => ("increases", Kind::Word),

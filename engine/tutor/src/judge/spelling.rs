@@ -64,9 +64,17 @@ pub fn words_of(word: &str) -> Vec<String> {
 /// Replaces short forms. `n` between two ordinary words is "and"; else it is the normal.
 pub fn expand(tokens: Vec<Token>, answer: &str) -> Vec<Token> {
     let mut out: Vec<Token> = Vec::with_capacity(tokens.len());
+    let mut tagged = 0;
     for at in 0..tokens.len() {
         let token = &tokens[at];
         let next = tokens.get(at + 1);
+        if tagged > at {
+            continue;
+        }
+        if asks_back(&tokens, at) {
+            tagged = at + 2;
+            continue;
+        }
         let ordinary = |t: Option<&Token>| {
             t.is_some_and(|t| {
                 t.kind == Kind::Word
@@ -151,6 +159,27 @@ pub fn expand(tokens: Vec<Token>, answer: &str) -> Vec<Token> {
         }
     }
     out
+}
+
+/// "…, isn't it?" asks for a nod and denies nothing.
+fn asks_back(tokens: &[Token], at: usize) -> bool {
+    let word = |i: usize| tokens.get(i).map_or("", |t| t.word.as_str());
+    matches!(
+        word(at),
+        "isnt"
+            | "arent"
+            | "doesnt"
+            | "dont"
+            | "wont"
+            | "cant"
+            | "wouldnt"
+            | "wasnt"
+            | "aint"
+            | "innit"
+    ) && matches!(word(at + 1), "it" | "they" | "you" | "he" | "we")
+        && tokens
+            .get(at + 2)
+            .is_none_or(|t| t.kind != Kind::Word && t.kind != Kind::Value)
 }
 
 /// Words that lead to a place or a circumstance.

@@ -34,7 +34,13 @@ impl Reading {
             let names_measure = end == start + 1
                 && matches!(
                     self.tokens[start].word.as_str(),
-                    "spread" | "scatter" | "scattering" | "dispersion" | "diffusion" | "blur"
+                    "spread"
+                        | "scatter"
+                        | "scattering"
+                        | "dispersion"
+                        | "diffusion"
+                        | "blur"
+                        | "peak"
                 );
             let opposite = noun
                 .concepts
@@ -100,6 +106,7 @@ impl Reading {
         else {
             return;
         };
+        let same = lexicon.id("nodifference");
         for index in 0..self.statements.len() {
             let statement = &self.statements[index];
             let aligns = self.tokens[statement.tokens.0..statement.tokens.1]
@@ -126,6 +133,22 @@ impl Reading {
                     )
                 });
             let meant = |id: Id| statement.concepts.contains(&id);
+            // "H equals V": two directions of the question, not two pictures.
+            if same.is_some_and(meant) && self.tokens[statement.tokens.0].word.starts_with("equal")
+            {
+                let clause = statement.clause;
+                let here = |names: &[&str]| {
+                    let from = self.clause.partition_point(|&c| c < clause);
+                    let to = self.clause.partition_point(|&c| c <= clause).min(from + 40);
+                    self.tokens[from..to]
+                        .iter()
+                        .any(|t| names.contains(&t.word.as_str()))
+                };
+                if here(&["h"]) && here(&["v", "l"]) && !here(&["n", "#n.v", "#v.h"]) {
+                    self.statements[index].void = true;
+                    continue;
+                }
+            }
             if !aligns || !(meant(concentrated) || meant(facet)) {
                 continue;
             }

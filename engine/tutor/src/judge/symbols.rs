@@ -168,6 +168,7 @@ fn is_link(word: &str) -> bool {
             | "near"
             | "right"
             | "always"
+            | "its"
             | "too"
             | "instead"
     )
@@ -207,6 +208,10 @@ fn dot_word(word: &str) -> Option<&'static str> {
 
 fn dot_product(tokens: &[Token], at: usize) -> Found {
     let word = &tokens[at].word;
+    if matches!(word.as_str(), "nlnv" | "nvnl" | "ndotlndotv") {
+        let pair = ["#n.l", "#n.v"].map(|name| (name.to_owned(), Kind::Value));
+        return Some((1, pair.to_vec()));
+    }
     if tokens[at].kind == Kind::Word
         && let Some(name) = dot_word(word)
     {

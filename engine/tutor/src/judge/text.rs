@@ -193,6 +193,14 @@ impl Reader<'_> {
             }
             return self.push(word, kind, from);
         }
+        // `x0.25`: times.
+        if matches!(c, 'x' | 'X')
+            && self.peek(1).is_some_and(|d| d.is_ascii_digit() || d == '.')
+            && !self.after_word()
+        {
+            self.at += 1;
+            return self.push("*", Kind::Op, from);
+        }
         if c.is_alphabetic() {
             return self.word();
         }
@@ -419,6 +427,16 @@ impl Reader<'_> {
             let joins = matches!(c, '\'' | '’' | '‘' | '`')
                 && self.peek(1).is_some_and(char::is_alphabetic)
                 && !text.is_empty();
+            // "the mirror's": whose it is, or what it is, shows where it stands.
+            let owns = joins
+                && matches!(self.peek(1), Some('s' | 'S'))
+                && !self.peek(2).is_some_and(char::is_alphanumeric)
+                && text.len() > 4
+                && !matches!(text.as_str(), "there" | "where" | "everything" | "nothing");
+            if owns {
+                self.at += 2;
+                break;
+            }
             if c.is_alphanumeric() {
                 text.extend(
                     c.nfkd()
@@ -432,6 +450,9 @@ impl Reader<'_> {
             {
                 break;
             }
+            self.at += 1;
+        }
+        if matches!(text.as_str(), "vs" | "approx" | "resp" | "cf") && self.peek(0) == Some('.') {
             self.at += 1;
         }
         self.push(text, Kind::Word, from);

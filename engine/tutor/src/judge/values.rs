@@ -48,6 +48,10 @@ pub fn setting(tokens: &[Token], at: usize) -> Found {
             next += 1;
         }
         let value = number(tokens, next)?;
+        // `R -> 1` is a reflectance that rises.
+        if is(tokens, at, &["r"]) && value == 1.0 && is(tokens, at + 1, &["->", "~", "goes"]) {
+            return None;
+        }
         let mut end = next + 1;
         // `0^+`: from above.
         if is(tokens, end, &["^"]) && is(tokens, end + 1, &["+", "("]) {
@@ -63,8 +67,43 @@ pub fn setting(tokens: &[Token], at: usize) -> Found {
         }
         return found(end - at, surface(value)?);
     }
+    // "put zero in", "plugging in 1".
+    if is(
+        tokens,
+        at,
+        &[
+            "put",
+            "plug",
+            "plugging",
+            "set",
+            "insert",
+            "inserting",
+            "substitute",
+            "substituting",
+            "enter",
+            "feed",
+        ],
+    ) {
+        let inner = at + 1 + usize::from(is(tokens, at + 1, &["in", "a", "it", "r", "to"]));
+        let value = number(tokens, inner).filter(|&v| v == 0.0 || v == 1.0)?;
+        if is(
+            tokens,
+            inner + 1,
+            &["/", "*", "^", "over", "%", "-", "+", ".", "for"],
+        ) && !is(tokens, inner + 1, &["."])
+        {
+            return None;
+        }
+        return found(inner + 1 - at, surface(value)?);
+    }
     // "for 1 you are left with", "at zero:", but not "at 90 degrees" or "goes to 1".
-    if is(tokens, at, &["for", "at", "with", "when"]) {
+    let shares = at > 0
+        && is(
+            tokens,
+            at - 1,
+            &["divided", "divide", "division", "dividing"],
+        );
+    if is(tokens, at, &["for", "at", "with", "when"]) && !shares {
         let value = number(tokens, at + 1).filter(|&v| v == 0.0 || v == 1.0)?;
         if is(
             tokens,
@@ -170,7 +209,12 @@ pub fn value(tokens: &[Token], at: usize) -> Found {
             vec![(word, Kind::Value), ("times".to_owned(), Kind::Word)],
         ));
     }
-    let part = |i: usize| is(tokens, i, &["+", "-", "/", "*", "^"]);
+    // "0.9+": and more.
+    let more = is(tokens, end, &["+"])
+        && tokens
+            .get(end + 1)
+            .is_none_or(|t| !matches!(t.kind, Kind::Value | Kind::Word));
+    let part = |i: usize| is(tokens, i, &["+", "-", "/", "*", "^"]) && !(more && i == end);
     // `D(1)`: an argument, not a value.
     let argument = at > 1
         && tokens[at - 1].is("(")

@@ -1,0 +1,230 @@
+//! What is said but not held: what others say and are wrong about, what the learner thought at
+//! first, both sides of an "or", a thing and its contrary in one breath.
+
+use super::claim::conflicts;
+use super::grammar;
+use super::lexicon::{CLASSES, Lexicon, QUANTITY, Role};
+use super::parse::{Reading, Statement, starts_with};
+use super::text::Token;
+
+/// Openings behind which stands what the learner no longer holds, if he turns against it.
+const AT_FIRST: &[&[&str]] = &[
+    &["at", "first", "i"],
+    &["i", "first", "thought"],
+    &["first", "i", "thought"],
+    &["i", "thought"],
+    &["i", "was", "going", "to"],
+    &["i", "was", "about", "to"],
+    &["i", "used", "to"],
+    &["my", "first"],
+    &["my", "initial"],
+    &["i", "had", "thought"],
+    &["i", "would", "have", "said"],
+    &["i", "wanted", "to"],
+    &["i", "almost"],
+    &["i", "nearly"],
+    &["initially", "i"],
+    &["i", "initially"],
+    &["i", "assumed"],
+];
+
+/// Of what they say, the clause before is only reported.
+const ATTRIBUTED: &[&[&str]] = &[
+    &["is", "what", "a"],
+    &["is", "what", "they"],
+    &["is", "what", "you"],
+    &["is", "what", "the"],
+    &["what", "they", "want"],
+    &["what", "you", "want"],
+];
+
+impl Reading {
+    /// Marks what is said without being held.
+    pub fn hearsay(&mut self, lexicon: &Lexicon) {
+        self.reported();
+        self.retracted();
+        self.torn(lexicon);
+    }
+
+    /// "My teacher says it is the rim, but he is wrong": so it is not.
+    fn reported(&mut self) {
+        for at in 1..self.tokens.len() {
+            if ATTRIBUTED
+                .iter()
+                .any(|words| starts_with(&self.tokens, at, words))
+            {
+                let quoted = (at..(at + 9).min(self.tokens.len())).any(|i| {
+                    matches!(
+                        self.tokens[i].word.as_str(),
+                        "say" | "says" | "hear" | "want" | "wants" | "expect" | "answer" | "write"
+                    )
+                });
+                if quoted {
+                    let sentence = self.sentence[at];
+                    self.each_between(0, at, |s| s.void |= s.sentence == sentence);
+                }
+            }
+            if !grammar::speaks(&self.tokens[at].word) || !self.others_speak(at) {
+                continue;
+            }
+            let end = self.turn_after(at + 1);
+            if self.dismissed(end) {
+                self.each_between(at + 1, end, |s| s.denied = true);
+            }
+        }
+    }
+
+    /// Whether somebody else is the subject of the verb of speech that stands here.
+    fn others_speak(&self, at: usize) -> bool {
+        (at.saturating_sub(3)..at).rev().any(|i| {
+            let word = self.tokens[i].word.as_str();
+            self.sentence[i] == self.sentence[at]
+                && (grammar::names_others(word)
+                    || word == "one"
+                        && (i + 1..at).any(|j| grammar::is_modal(&self.tokens[j].word)))
+        })
+    }
+
+    /// The first token from here on at which the sentence turns or ends.
+    fn turn_after(&self, from: usize) -> usize {
+        (from..self.tokens.len())
+            .find(|&i| {
+                self.sentence[i] != self.sentence[from - 1]
+                    || matches!(
+                        self.tokens[i].word.as_str(),
+                        "but"
+                            | "however"
+                            | "though"
+                            | "although"
+                            | "--"
+                            | ";"
+                            | "..."
+                            | "actually"
+                            | "yet"
+                    )
+            })
+            .unwrap_or(self.tokens.len())
+    }
+
+    /// Whether what follows calls what went before wrong, or turns away from it.
+    fn dismissed(&self, from: usize) -> bool {
+        let here = self.sentence.get(from.saturating_sub(1)).copied();
+        let near = |i: usize| here.is_some_and(|here| self.sentence[i] <= here + 1);
+        let word = |i: usize| self.tokens.get(i).map_or("", |t| t.word.as_str());
+        (from..(from + 9).min(self.tokens.len()))
+            .take_while(|&i| near(i))
+            .any(|i| {
+                let they = (i.saturating_sub(4)..i).any(|j| {
+                    grammar::names_others(word(j)) || matches!(word(j), "that" | "this" | "it")
+                });
+                match word(i) {
+                    "wrong" | "mistaken" | "false" | "nonsense" | "rubbish" | "backwards"
+                    | "incorrect" | "untrue" | "myth" => they,
+                    "disagree" => true,
+                    "look" => word(i + 1) == "again",
+                    "i" => word(i + 1) == "do" && word(i + 2) == "not",
+                    "but" => matches!(word(i + 1), "really" | "actually" | "no" | "in"),
+                    _ => false,
+                }
+            })
+    }
+
+    /// "At first I thought the rim gets darker, but ..."
+    fn retracted(&mut self) {
+        for at in 0..self.tokens.len() {
+            let Some(opening) = AT_FIRST
+                .iter()
+                .find(|words| starts_with(&self.tokens, at, words))
+            else {
+                continue;
+            };
+            let from = at + opening.len();
+            let end = self.turn_after(from);
+            let turns = self.tokens.get(end).is_some_and(|t| {
+                self.sentence[end] == self.sentence[at]
+                    || matches!(
+                        t.word.as_str(),
+                        "but" | "no" | "actually" | "however" | "wait" | "then" | "now"
+                    )
+            });
+            if turns {
+                self.each_between(from, end, |s| s.void = true);
+            }
+        }
+    }
+
+    /// "bright or dark", "contains it and does not contain it": neither is claimed.
+    fn torn(&mut self, lexicon: &Lexicon) {
+        let count = self.statements.len();
+        for index in 0..count {
+            for other in index + 1..count.min(index + 5) {
+                let (a, b) = (&self.statements[index], &self.statements[other]);
+                if a.sentence != b.sentence || a.tokens.1 > b.tokens.0 {
+                    continue;
+                }
+                let gap = &self.tokens[a.tokens.1..b.tokens.0];
+                // Numbers may follow one another; only an "or" leaves them open.
+                let number = |s: &Statement| {
+                    s.concepts.iter().any(|&id| {
+                        matches!(
+                            lexicon.concept(id).name.as_str(),
+                            "one" | "zero" | "oneoverpi" | "singular"
+                        )
+                    })
+                };
+                let open = gap.iter().any(|t| t.is("or"));
+                let plain = |t: &Token| grammar::is_glue(&t.word) || grammar::is_copula(&t.word);
+                let joined = gap.len() <= 6
+                    && (open || gap.iter().any(|t| t.is("and")) && !number(a))
+                    && gap
+                        .iter()
+                        .enumerate()
+                        .all(|(i, t)| plain(t) || self.heard[a.tokens.1 + i])
+                    && !gap
+                        .iter()
+                        .any(|t| matches!(t.word.as_str(), "but" | "no" | "was" | "than"));
+                // "small and strong": only what the words mean first can be at odds.
+                let first = |s: &Statement| s.concepts.first().copied();
+                let at_odds = first(a) == first(b) && a.denied != b.denied
+                    || first(a).and_then(|id| lexicon.concept(id).antonym) == first(b)
+                    || number(a) && number(b);
+                if joined
+                    && at_odds
+                    && !a.compared
+                    && !b.compared
+                    && same_subject(a, b)
+                    && conflicts(lexicon, a, b)
+                {
+                    let says = |s: &Statement| {
+                        s.concepts
+                            .iter()
+                            .any(|&id| lexicon.concept(id).role == Role::State)
+                    };
+                    if says(a) && says(b) {
+                        self.statements[index].void = true;
+                        self.statements[other].void = true;
+                    }
+                }
+            }
+        }
+    }
+
+    fn each_between(&mut self, from: usize, to: usize, change: impl Fn(&mut Statement)) {
+        let first = self.statements.partition_point(|s| s.tokens.0 < from);
+        self.statements[first..]
+            .iter_mut()
+            .take_while(|s| s.tokens.0 < to)
+            .for_each(change);
+    }
+}
+
+/// Whether two statements are about the same, class by class.
+fn same_subject(a: &Statement, b: &Statement) -> bool {
+    (0..CLASSES)
+        .filter(|&class| class != QUANTITY)
+        .all(|class| match (&a.about[class], &b.about[class]) {
+            (Some(x), Some(y)) => x.concepts.iter().any(|id| y.concepts.contains(id)),
+            (None, None) => true,
+            _ => false,
+        })
+}
