@@ -89,6 +89,7 @@ fn sky() -> Rubric {
         reteach: None,
         ask: None,
         hint: None,
+        prompt: None,
     };
     Rubric {
         item: "x/y".into(),

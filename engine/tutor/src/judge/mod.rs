@@ -267,10 +267,7 @@ impl Judge {
     pub fn denied(&self, text: &str) -> Vec<String> {
         let (lexicon, reading) = (lexicon(), self.read(text));
         let says = |criterion: &&Criterion| {
-            let ears = Ears {
-                strict: criterion.is_misconception,
-                understood: self.understood,
-            };
+            let ears = criterion.ears(self.understood);
             let against = criterion.against.iter();
             criterion
                 .phrases
