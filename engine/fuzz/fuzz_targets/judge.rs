@@ -1,0 +1,5 @@
+//! `cargo +nightly fuzz run --fuzz-dir engine/fuzz --features libfuzzer judge`
+
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|data: &[u8]| lobe_fuzz::judge(data));
