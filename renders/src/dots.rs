@@ -49,7 +49,7 @@ enum Key<'a> {
 }
 
 const FRONT: &str = "Pareto front: nothing is both faster and more accurate";
-const OUTLINE: &str = "outlined: on the Pareto front of its colour";
+const OUTLINE: &str = "outlined: on the Pareto front of its group";
 
 impl Chart<'_> {
     /// The second part of the legend, broken into rows of at most `width` pixels.

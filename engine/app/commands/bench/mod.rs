@@ -1,5 +1,6 @@
 //! `lobe bench`: run time against error, for every term and every way to compute it.
 
+mod pictures;
 mod plots;
 
 use std::io::{self, IsTerminal as _};
@@ -38,7 +39,7 @@ pub fn run(args: &Bench) -> Result<Done, Failure> {
     }
 
     let mut printed = Ok(());
-    let rows = measure(effort, &limits, |group| {
+    let mut done = |group: &[Row]| {
         output::progress("");
         if printed.is_ok() {
             printed = print(group, args.json, width);
@@ -46,7 +47,9 @@ pub fn run(args: &Bench) -> Result<Done, Failure> {
         if let Some(row) = group.first() {
             output::progress(&format!("after {}", row.group));
         }
-    });
+    };
+    let mut rows = measure(effort, &limits, &mut done);
+    rows.extend(pictures::measure(args.quick, &mut done)?);
     output::progress("");
     printed?;
 
@@ -220,6 +223,10 @@ fn note(group: &str) -> &'static str {
         "reciprocity" => "f(l, v) against f(v, l)",
         "walk approximated" => "albedo without what was only mirrored, base 0.8",
         "walk_albedo" => "share of walks that leave after one bounce, against the quadrature",
+        group if group.starts_with("render/") || group.starts_with("render_lights/") => {
+            "ns for both panels; error of a pixel against double precision, nothing left out"
+        }
+        "render_samples/128" => "ns for both panels; share of the brightest, against many samples",
         "walk_energy" => "all that comes back from mirrors, against 1",
         _ => "",
     }

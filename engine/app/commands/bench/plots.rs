@@ -27,6 +27,8 @@ struct Picture {
     shapes: &'static [(Shape, &'static str)],
     /// What stands beside a point, where there is room.
     label: fn(&Row) -> String,
+    /// What the time is of.
+    one: &'static str,
     /// Whether all points are ways to the same, so that one front goes through them.
     same: bool,
 }
@@ -121,9 +123,39 @@ const PICTURES: &[Picture] = &[
             Some((_, more)) => more.to_owned(),
             None => row.variant.clone(),
         },
+        one: "albedo",
         same: true,
     },
+    Picture {
+        file: "pictures",
+        title: "Pictures: two formulas on a sphere, at several sizes",
+        holds: |row| row.group.starts_with("render/"),
+        colour: |row| format!("{}, {}", row.variant, row.precision),
+        label: |row| {
+            let size = row.group.trim_start_matches("render/");
+            format!("{size} x {size}")
+        },
+        same: false,
+        ..PICTURE
+    },
+    Picture {
+        file: "samples",
+        title: "Pictures of 128 x 128: samples a pixel",
+        holds: |row| row.group.starts_with("render_samples/"),
+        colour: |row| format!("cpu, {}", row.precision),
+        label: |row| row.variant.trim_end_matches(" a pixel").to_owned(),
+        ..PICTURE
+    },
 ];
+
+/// Pictures against better ones.
+const PICTURE: Picture = Picture {
+    shape: |_| Shape::Disc,
+    shapes: &[],
+    one: "picture",
+    same: true,
+    ..FORMS
+};
 
 /// The ways to compute one term.
 const FORMS: Picture = Picture {
@@ -146,6 +178,7 @@ const FORMS: Picture = Picture {
         (Shape::Triangle, "batch, AVX-512"),
     ],
     label: |_| String::new(),
+    one: "evaluation",
     same: false,
 };
 
@@ -239,7 +272,7 @@ fn spec(picture: &Picture, rows: &[&Row], machine: &str) -> PlotSpec {
     };
     PlotSpec {
         title: picture.title.to_owned(),
-        x_label: format!("nanoseconds for one evaluation, {machine}"),
+        x_label: format!("nanoseconds for one {}, {machine}", picture.one),
         y_label: format!("worst error found, {unit}{floor}"),
         x_log: true,
         y_log: true,
