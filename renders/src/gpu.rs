@@ -1,135 +1,62 @@
-//! Both formulas on a graphics processor, without a window. Nothing here is created before a
-//! picture is wanted, and no failure is a panic: every call that can fail runs in an error scope.
+//! Both formulas as a shader, and any formula at points of one's own.
 
 use crate::Fingerprint;
+use crate::device::{Computed, Device, Kernel, WORKGROUP, Wanted};
 use crate::error::Error;
 use crate::plan::{Plan, folded, of_main_light};
 use crate::sample::{Input, Samples};
 use crate::scene::VARYING;
 use crate::shade::Values;
-use formula::{Expr, Wgsl};
+use formula::{Expr, Library, Wgsl};
 use std::fmt::Write as _;
-
-/// Samples in one dispatch: 16 MiB of input, well within every adapter's limits.
-const CHUNK: usize = 1 << 20;
-const WORKGROUP: usize = 64;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A device with the two formulas compiled for it.
 pub(crate) struct Gpu {
-    device: wgpu::Device,
-    queue: wgpu::Queue,
-    pipeline: wgpu::ComputePipeline,
+    device: Device,
+    kernel: Kernel,
     second_is_ratio: bool,
     /// The places in [`VARYING`] of what a point is told, in the shader's order.
     columns: Vec<usize>,
+    /// What the device's own clock has counted; `u64::MAX` where it has none.
+    nanoseconds: AtomicU64,
     pub adapter: String,
-}
-
-/// Which adapters will do.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Wanted {
-    /// Any, software included.
-    Any,
-    /// A real graphics processor only.
-    Hardware,
-}
-
-fn adapter(wanted: Wanted) -> Result<(wgpu::Adapter, wgpu::AdapterInfo), Error> {
-    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
-        backends: wgpu::Backends::PRIMARY,
-        flags: wgpu::InstanceFlags::empty(),
-        ..wgpu::InstanceDescriptor::new_without_display_handle()
-    });
-    let request = instance.request_adapter(&wgpu::RequestAdapterOptions {
-        power_preference: wgpu::PowerPreference::HighPerformance,
-        ..Default::default()
-    });
-    let adapter =
-        pollster::block_on(request).map_err(|_| Error::NoAdapter("none was found".to_owned()))?;
-    let info = adapter.get_info();
-    if wanted == Wanted::Hardware && info.device_type == wgpu::DeviceType::Cpu {
-        return Err(Error::NoAdapter(format!(
-            "{} is a software driver",
-            info.name
-        )));
-    }
-    Ok((adapter, info))
-}
-
-/// Whether a real graphics processor can be there at all: loading every installed driver to find
-/// none takes longer than drawing on the CPU.
-pub(crate) fn may_be_there() -> bool {
-    if cfg!(target_os = "linux") {
-        let devices = [
-            "/dev/dri",
-            "/dev/nvidiactl",
-            "/dev/dxg",
-            "/dev/mali0",
-            "/dev/kgsl-3d0",
-        ];
-        devices
-            .iter()
-            .any(|device| std::path::Path::new(device).exists())
-    } else {
-        true
-    }
-}
-
-fn describe(info: &wgpu::AdapterInfo) -> String {
-    format!("{} ({})", info.name, info.backend)
-}
-
-/// The adapter that [`crate::Backend::Gpu`] would draw on, in words.
-///
-/// # Errors
-/// [`Error::NoAdapter`] where there is none.
-pub fn gpu_adapter() -> Result<String, Error> {
-    adapter(Wanted::Any).map(|(_, info)| describe(&info))
 }
 
 impl Gpu {
     pub fn new(wanted: Wanted, fingerprint: &Fingerprint<'_>, plan: &Plan) -> Result<Self, Error> {
         let source = shader(fingerprint, plan)?;
-        let (adapter, info) = adapter(wanted)?;
-        let request = adapter.request_device(&wgpu::DeviceDescriptor {
-            label: Some("fingerprint"),
-            // What every adapter has: the picture needs nothing more.
-            required_limits: wgpu::Limits::downlevel_defaults(),
-            ..Default::default()
-        });
-        let (device, queue) = pollster::block_on(request).map_err(|e| Error::Gpu(e.to_string()))?;
-        let pipeline = guarded(&device, |device| {
-            let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: Some("fingerprint"),
-                source: wgpu::ShaderSource::Wgsl(source.into()),
-            });
-            device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                label: Some("fingerprint"),
-                layout: None,
-                module: &module,
-                entry_point: Some("shade"),
-                compilation_options: Default::default(),
-                cache: None,
-            })
-        })?;
+        let device = Device::open(wanted)?;
         Ok(Self {
-            device,
-            queue,
-            pipeline,
+            kernel: device.kernel(source)?,
             second_is_ratio: plan.ratio.is_some(),
             columns: columns(plan),
-            adapter: describe(&info),
+            nanoseconds: AtomicU64::new(0),
+            adapter: device.name.clone(),
+            device,
         })
+    }
+
+    /// Milliseconds that the device itself was busy with both panels, where it can tell.
+    pub fn device_ms(&self) -> Option<f64> {
+        let nanoseconds = self.nanoseconds.load(Ordering::Relaxed);
+        (nanoseconds != u64::MAX).then_some(nanoseconds as f64 * 1e-6)
     }
 
     /// Both formulas at the samples under each of some lights.
     pub fn evaluate(&self, samples: &[Samples]) -> Result<Vec<Values>, Error> {
         let points = self.points(samples);
-        let stride = self.columns.len();
-        let mut results = Vec::with_capacity(points.len() / stride);
-        for chunk in points.chunks(CHUNK * stride) {
-            results.extend(self.dispatch(chunk)?);
-        }
+        let Computed {
+            values,
+            nanoseconds,
+        } = self
+            .device
+            .run(&self.kernel, &points, (self.columns.len(), 2))?;
+        match nanoseconds {
+            Some(more) => self.nanoseconds.fetch_add(more as u64, Ordering::Relaxed),
+            None => self.nanoseconds.swap(u64::MAX, Ordering::Relaxed),
+        };
+        let results: Vec<[f32; 2]> = bytemuck::pod_collect_to_vec(&values);
         let mut rest = results.as_slice();
         let values = samples.iter().map(|samples| {
             let (own, others) = rest.split_at(samples.len());
@@ -159,103 +86,6 @@ impl Gpu {
         }
         points
     }
-
-    fn dispatch(&self, points: &[f32]) -> Result<Vec<[f32; 2]>, Error> {
-        let count = points.len() / self.columns.len();
-        let bytes: &[u8] = bytemuck::cast_slice(points);
-        let result_size = (count * size_of::<[f32; 2]>()) as u64;
-        let readback = guarded(&self.device, |device| {
-            let buffer = |size: u64, usage: wgpu::BufferUsages| {
-                device.create_buffer(&wgpu::BufferDescriptor {
-                    label: None,
-                    size,
-                    usage,
-                    mapped_at_creation: false,
-                })
-            };
-            let input = buffer(
-                bytes.len() as u64,
-                wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
-            );
-            let output = buffer(
-                result_size,
-                wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
-            );
-            let readback = buffer(
-                result_size,
-                wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
-            );
-            self.queue.write_buffer(&input, 0, bytes);
-            let bindings = device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: None,
-                layout: &self.pipeline.get_bind_group_layout(0),
-                entries: &[
-                    wgpu::BindGroupEntry {
-                        binding: 0,
-                        resource: input.as_entire_binding(),
-                    },
-                    wgpu::BindGroupEntry {
-                        binding: 1,
-                        resource: output.as_entire_binding(),
-                    },
-                ],
-            });
-            let mut encoder = device.create_command_encoder(&Default::default());
-            {
-                let mut pass = encoder.begin_compute_pass(&Default::default());
-                pass.set_pipeline(&self.pipeline);
-                pass.set_bind_group(0, &bindings, &[]);
-                pass.dispatch_workgroups(count.div_ceil(WORKGROUP) as u32, 1, 1);
-            }
-            encoder.copy_buffer_to_buffer(&output, 0, &readback, 0, result_size);
-            self.queue.submit([encoder.finish()]);
-            readback
-        })?;
-        let (sender, receiver) = std::sync::mpsc::channel();
-        readback
-            .slice(..)
-            .map_async(wgpu::MapMode::Read, move |result| {
-                // The receiver is gone only if this function has already failed.
-                let _ = sender.send(result);
-            });
-        self.device
-            .poll(wgpu::PollType::wait_indefinitely())
-            .map_err(|e| Error::Gpu(e.to_string()))?;
-        match receiver.recv() {
-            Ok(Ok(())) => {}
-            Ok(Err(e)) => return Err(Error::Gpu(e.to_string())),
-            Err(_) => return Err(Error::Gpu("the result never arrived".to_owned())),
-        }
-        let view = readback
-            .slice(..)
-            .get_mapped_range()
-            .map_err(|e| Error::Gpu(e.to_string()))?;
-        Ok(bytemuck::cast_slice(&view).to_vec())
-    }
-}
-
-/// Runs `work` so that its failures come back as an error: outside a scope wgpu panics.
-fn guarded<T>(device: &wgpu::Device, work: impl FnOnce(&wgpu::Device) -> T) -> Result<T, Error> {
-    let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
-    let internal = device.push_error_scope(wgpu::ErrorFilter::Internal);
-    let validation = device.push_error_scope(wgpu::ErrorFilter::Validation);
-    let result = work(device);
-    let errors = [validation.pop(), internal.pop()];
-    let mut errors: Vec<_> = errors.into_iter().map(pollster::block_on).collect();
-    errors.push(pollster::block_on(memory.pop()));
-    match errors.into_iter().flatten().next() {
-        None => Ok(result),
-        Some(error) => Err(Error::Gpu(first_line(&error.to_string()))),
-    }
-}
-
-fn first_line(text: &str) -> String {
-    text.lines()
-        .map(str::trim)
-        .filter(|line| !line.is_empty())
-        .take(3)
-        .collect::<Vec<_>>()
-        .join(": ")
 }
 
 /// The places in [`VARYING`] of what a shader is told of each point: at least one, so that the
@@ -324,6 +154,63 @@ fn shader(fingerprint: &Fingerprint<'_>, plan: &Plan) -> Result<String, Error> {
         right.expr, second.expr
     );
     Ok(source)
+}
+
+/// Formulas evaluated on a graphics processor at points of one's own: to hold a shader's
+/// arithmetic against the core's.
+pub struct GpuFormulas {
+    device: Device,
+}
+
+impl GpuFormulas {
+    /// Opens any adapter, software drivers included.
+    ///
+    /// # Errors
+    /// [`Error::NoAdapter`] where there is none.
+    pub fn open() -> Result<Self, Error> {
+        let device = Device::open(Wanted::Any)?;
+        Ok(Self { device })
+    }
+
+    /// The adapter in words.
+    pub fn adapter(&self) -> &str {
+        &self.device.name
+    }
+
+    /// The formula's values at points, each of which gives the `inputs` in their order.
+    ///
+    /// # Errors
+    /// A formula that no shader can compute, or a failure of the device.
+    pub fn values(
+        &self,
+        library: &Library,
+        expr: &Expr,
+        inputs: &[&str],
+        points: &[Vec<f32>],
+    ) -> Result<Vec<f32>, Error> {
+        let which = "right";
+        let formula = library.wgsl(expr, inputs);
+        let formula = formula.map_err(|error| Error::Formula { which, error })?;
+        let mut source = formula.functions.clone();
+        let _ = write!(
+            source,
+            "@group(0) @binding(0) var<storage, read> points: array<f32>;\n\
+             @group(0) @binding(1) var<storage, read_write> values: array<f32>;\n\n\
+             @compute @workgroup_size({WORKGROUP})\n\
+             fn shade(@builtin(global_invocation_id) id: vec3<u32>) {{\n\
+             \x20   if (id.x >= arrayLength(&values)) {{ return; }}\n\
+             \x20   let first = id.x * {}u;\n",
+            inputs.len()
+        );
+        for (place, name) in inputs.iter().enumerate() {
+            let _ = writeln!(source, "    let {name} = points[first + {place}u];");
+        }
+        let _ = writeln!(source, "    values[id.x] = {};\n}}", formula.expr);
+        let kernel = self.device.kernel(source)?;
+        let points = points.concat();
+        let computed = self.device.run(&kernel, &points, (inputs.len(), 1))?;
+        Ok(computed.values)
+    }
 }
 
 #[cfg(test)]

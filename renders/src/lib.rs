@@ -17,6 +17,7 @@ mod colour;
 mod contour;
 mod convergence;
 mod cpu;
+mod device;
 mod dots;
 mod error;
 mod exr;
@@ -38,9 +39,10 @@ mod visibility;
 pub use canvas::png;
 pub use chart::{PlotSpec, plot_png, plot_svg};
 pub use convergence::{Total, convergence};
+pub use device::gpu_adapter;
 pub use dots::{Dot, Shape};
 pub use error::Error;
-pub use gpu::gpu_adapter;
+pub use gpu::GpuFormulas;
 pub use map::{MapSpec, Scale, map_png};
 pub use profile::{ProfilePoint, point_at, profile};
 pub use scene::{Eye, Light, RADIUS, Scene};
@@ -48,7 +50,8 @@ pub use visibility::Visibility;
 
 use crate::colour::EncodeTable;
 use crate::cpu::Cpu;
-use crate::gpu::{Gpu, Wanted};
+use crate::device::Wanted;
+use crate::gpu::Gpu;
 use crate::plan::Plan;
 use crate::profile::Profile;
 use crate::sample::Panel;
@@ -192,6 +195,9 @@ pub struct Report {
     pub exposure: f64,
     /// Wall-clock time from formulas to pixels, in milliseconds.
     pub ms: f64,
+    /// What a graphics processor's own clock says both panels took it, in milliseconds, where it
+    /// has one.
+    pub device_ms: Option<f64>,
     /// Whether the bug shows.
     pub visibility: Visibility,
 }
@@ -271,6 +277,7 @@ pub fn render(
             explain: plan.explain,
             exposure,
             ms: start.elapsed().as_secs_f64() * 1e3,
+            device_ms: drawn.device_ms,
             visibility,
         },
     })
@@ -306,6 +313,7 @@ struct Drawn {
     shaded: Shaded,
     backend: &'static str,
     adapter: Option<String>,
+    device_ms: Option<f64>,
 }
 
 fn draw_panels(
@@ -344,6 +352,7 @@ fn draw_panels(
             shaded: shade(&job, &Engine::Idle)?,
             backend: "cpu",
             adapter: None,
+            device_ms: None,
         });
     }
     let on_cpu = || -> Result<Drawn, Error> {
@@ -354,23 +363,30 @@ fn draw_panels(
             shaded,
             backend: "cpu",
             adapter: None,
+            device_ms: None,
         })
     };
     let on_gpu = |wanted| -> Result<Drawn, Error> {
         let gpu = Gpu::new(wanted, fingerprint, plan)?;
         let adapter = Some(gpu.adapter.clone());
-        let shaded = shade(&job, &Engine::Gpu(Box::new(gpu)))?;
+        let engine = Engine::Gpu(Box::new(gpu));
+        let shaded = shade(&job, &engine)?;
+        let device_ms = match &engine {
+            Engine::Gpu(gpu) => gpu.device_ms(),
+            _ => None,
+        };
         Ok(Drawn {
             panel,
             shaded,
             backend: "gpu",
             adapter,
+            device_ms,
         })
     };
     match options.backend {
         Backend::Cpu => on_cpu(),
         Backend::Gpu => on_gpu(Wanted::Any),
-        Backend::Auto if !gpu::may_be_there() => on_cpu(),
+        Backend::Auto if !device::may_be_there() => on_cpu(),
         Backend::Auto => match on_gpu(Wanted::Hardware) {
             // Whatever ails the graphics processor, the CPU draws the same picture.
             Err(Error::NoAdapter(_) | Error::Gpu(_)) => on_cpu(),

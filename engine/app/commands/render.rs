@@ -39,6 +39,8 @@ struct Report {
     explain: Vec<String>,
     cache_hit: bool,
     ms: f64,
+    /// What the graphics processor's own clock counted; null where there is none.
+    device_ms: Option<f64>,
     visibility: Option<Visibility>,
 }
 
@@ -194,6 +196,7 @@ fn draw(fingerprint: &Fingerprint, args: &Render, out: &Path) -> Result<Report, 
         explain: made.explain,
         cache_hit: false,
         ms: milliseconds(start),
+        device_ms: made.device_ms,
         visibility: Some(Visibility::of(&made.visibility)),
     };
     if let (Some(entry), false) = (&cached, args.no_skip) {
@@ -243,6 +246,7 @@ fn draw_plot(lesson: &Lesson, view: &PlotView, out: &Path) -> Result<Vec<Report>
             explain: Vec::new(),
             cache_hit: false,
             ms: milliseconds(start),
+            device_ms: None,
             visibility: None,
         });
     }

@@ -199,10 +199,22 @@ const D_BLINN_PHONG: Term = entry!(
     symbol: "D_Blinn", latex: r"D_{\mathrm{Blinn}}", cost: 60,
     doc: "normalised Blinn-Phong distribution with exponent 2/alpha² - 2, in 1/sr",
     source: "Blinn 1977; Walter et al. 2007, eq. 30",
+    // The exponent multiplies what the logarithm has lost, and near 1 a driver's has lost most
+    // of it: ln m = −2 artanh((1 − m)/(1 + m)) by its series, m in [1/2, 1].
     wgsl: Some("fn lobe_d_blinn_phong(n_dot_h: f32, alpha: f32) -> f32 {
     if (n_dot_h < 0.0) { return 0.0; }
     let c = min(n_dot_h, 1.0);
-    let a2 = alpha * alpha;
-    return pow(c, 2.0 / a2 - 2.0) / (3.1415926535897931 * a2);
+    let t = 1.0 / alpha;
+    let half_exponent = t * t - 1.0;
+    if (c < 1e-30) { return select(0.0, 0.31830988618379067 * t * t, half_exponent <= 0.0); }
+    let bits = bitcast<u32>(c);
+    let powers = select(i32(bits >> 23u) - 126, 0, c >= 0.5);
+    let m = select(bitcast<f32>((bits & 0x007fffffu) | 0x3f000000u), c, c >= 0.5);
+    let u = (1.0 - m) / (1.0 + m);
+    let u2 = u * u;
+    let series = 1.0 + u2 * (0.33333333 + u2 * (0.2 + u2 * (0.14285714 + u2 * (0.11111111 + u2 * (0.09090909 + u2 * (0.07692308 + u2 * 0.06666667))))));
+    let ln_c = f32(powers) * 0.69314718 - 2.0 * u * series;
+    let root = exp(half_exponent * ln_c) * t;
+    return root * root * 0.31830988618379067;
 }")
 );

@@ -437,9 +437,23 @@ const T_CONDUCTOR: Term = entry!(
     doc: "share of the light that a conductor with index n + ik absorbs, unpolarised, 0 to 1",
     source: "Born and Wolf, section 14.2; Lagarde 2013",
     wgsl: Some("fn lobe_t_conductor(n: f32, k: f32, v_dot_h: f32) -> f32 {
-    return 1.0 - lobe_f_conductor(n, k, v_dot_h);
-}"),
-    needs: ["f_conductor"]
+    let c = clamp(v_dot_h, 0.0, 1.0);
+    let s2 = (1.0 - c) * (1.0 + c);
+    let t0 = n * n - k * k - s2;
+    let nk = n * k;
+    let large = 0.5 * (sqrt(t0 * t0 + 4.0 * nk * nk) + abs(t0));
+    var small = 0.0;
+    if (large > 0.0) { small = nk * (nk / large); }
+    let a = sqrt(select(large, small, t0 < 0.0));
+    let b2 = select(small, large, t0 < 0.0);
+    let d_s = (a + c) * (a + c) + b2;
+    if (d_s == 0.0) { return 1.0; }
+    let ac = a * c;
+    let t_s = 4.0 * ac / d_s;
+    let r_s = ((a - c) * (a - c) + b2) / d_s;
+    let p = ac + s2;
+    return t_s + 0.5 * r_s * (4.0 * ac * s2 / (p * p + b2 * c * c));
+}")
 );
 
 /// Lazányi's correction for metals: F = f0 + (1 − f0)(1 − V·H)⁵ − a V·H (1 − V·H)⁶.
