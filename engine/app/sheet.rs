@@ -34,14 +34,16 @@ pub fn lines(review: &Review, width: usize) -> Vec<Pieces> {
             Some((start, end, tone(point)))
         })
         .collect();
-    let answer = text::wrap(
-        &text::quoted(&explanation.text, &marks),
-        width.saturating_sub(2),
-    );
+    let whole = explanation.whole();
+    let answer = text::wrap(&text::quoted(&whole, &marks), width.saturating_sub(2));
     lines.extend(answer.into_iter().map(|mut line| {
         line.insert(0, Piece::new("│ ", Role::Text));
         line
     }));
+    for (asked, reply) in &explanation.replies {
+        let words = format!("“{reply}” is what came back to: {asked}");
+        lines.extend(plain(&words, width, Role::Emph));
+    }
     lines.push(Vec::new());
     let mut why = waiting.reason.sentence().to_owned();
     if !explanation.disputed.is_empty() {
@@ -60,6 +62,7 @@ pub fn points(review: &Review, width: usize) -> Vec<Pieces> {
     let Some(waiting) = review.current() else {
         return Vec::new();
     };
+    let whole = waiting.explanation.whole();
     let mut lines = Vec::new();
     for (place, point) in review.points().iter().enumerate() {
         let sign = match (point.said, point.is_misconception) {
@@ -76,13 +79,14 @@ pub fn points(review: &Review, width: usize) -> Vec<Pieces> {
         };
         let quote = point
             .quote
-            .and_then(|(start, end)| waiting.explanation.text.get(start..end))
-            .map_or_else(String::new, |quote| format!(" “{quote}”"));
+            .and_then(|(start, end)| whole.get(start..end))
+            .map_or_else(String::new, |quote| format!("“{quote}”"));
         let before = format!("{:>2} {sign} ", place + 1);
         let room = width.saturating_sub(before.chars().count());
         let words = [
             Piece::new(point.says.as_str(), Role::Text),
             Piece::new(kind, Role::Emph),
+            Piece::new(" ", Role::Text),
             Piece::new(quote, Role::Marked(tone(point))),
         ];
         for (index, mut line) in text::wrap(&words, room).into_iter().enumerate() {

@@ -88,6 +88,10 @@ fn waiting(shelf: &Shelf, class: &Class, marks: &Marks, args: &cli::Review) -> V
             None if args.all => Reason::Asked,
             None => continue,
         };
+        let today = match explanation.replies.is_empty() {
+            true => today,
+            false => explain.judge.judge(&explanation.whole()),
+        };
         let id = explanation.mark_id(&answered.log);
         if marks.has(&id) && !args.again {
             continue;
@@ -125,7 +129,7 @@ fn list(waiting: &[Waiting], as_json: bool) -> Result<(), Failure> {
                 "verdict": it.today.verdict.as_str(),
                 "unsure": it.today.unsure,
                 "disputed": explanation.disputed,
-                "text": explanation.text,
+                "text": explanation.whole(),
             }))?;
             continue;
         }

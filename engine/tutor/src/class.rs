@@ -17,12 +17,16 @@ pub struct Explanation {
     pub attempt: u32,
     /// When it was handed in, RFC 3339.
     pub at: String,
-    /// Everything the learner said to it: the answer, then the replies.
+    /// The answer.
     pub text: String,
+    /// What the tutor asked back, and what the learner replied.
+    pub replies: Vec<(String, String)>,
     /// Which judge decided.
     pub judge: String,
-    /// The judge's last word: `pass`, `partial`, `fail` or `unsure`.
+    /// What the judge said of the answer: `pass`, `partial`, `fail` or `unsure`.
     pub verdict: String,
+    /// What stood after the replies and a second opinion.
+    pub stands: String,
     /// Expectations met.
     pub met: Vec<String>,
     /// Misconceptions shown.
@@ -101,8 +105,10 @@ pub fn explanations(record: &Record) -> Vec<Explanation> {
                     attempt: *attempt,
                     at: entry.at.clone(),
                     text: text.clone(),
+                    replies: Vec::new(),
                     judge: judge.clone(),
                     verdict: verdict.clone(),
+                    stands: verdict.clone(),
                     met: met.clone(),
                     misconceptions: misconceptions.clone(),
                     unsure: unsure.clone(),
@@ -121,6 +127,31 @@ pub fn explanations(record: &Record) -> Vec<Explanation> {
                     out[place].self_marked = Some(verdict.clone());
                 }
             }
+            Event::Replied {
+                item,
+                attempt,
+                asked,
+                text,
+                verdict,
+                ..
+            } => {
+                if let Some(&place) = at.get(&(item.clone(), *attempt)) {
+                    out[place].replies.push((asked.clone(), text.clone()));
+                    out[place].stands = verdict.clone();
+                }
+            }
+            Event::SecondOpinion {
+                item,
+                attempt,
+                disputed,
+                verdict,
+                ..
+            } => {
+                if let Some(&place) = at.get(&(item.clone(), *attempt)) {
+                    out[place].disputed = disputed.clone();
+                    out[place].stands = verdict.clone();
+                }
+            }
             _ => {}
         }
     }
@@ -130,19 +161,29 @@ pub fn explanations(record: &Record) -> Vec<Explanation> {
 impl Explanation {
     /// The verdict that the learner was told last.
     pub fn told(&self) -> &str {
-        self.self_marked.as_deref().unwrap_or(&self.verdict)
+        self.self_marked.as_deref().unwrap_or(&self.stands)
     }
 
-    /// Why a teacher should look at it, given what today's judge says; `None` where nothing is
-    /// open.
+    /// Answer and replies as one text.
+    pub fn whole(&self) -> String {
+        let mut whole = self.text.clone();
+        for (_, reply) in &self.replies {
+            whole.push('\n');
+            whole.push_str(reply);
+        }
+        whole
+    }
+
+    /// Why a teacher should look at it, given what today's judge says of the answer alone;
+    /// `None` where nothing is open.
     pub fn open_because(&self, today: &Judgement) -> Option<Reason> {
         if !self.disputed.is_empty() {
             Some(Reason::Disputed)
         } else if self.self_marked.is_some() {
             Some(Reason::SelfMarked)
-        } else if self.verdict == "unsure" {
+        } else if self.stands == "unsure" {
             Some(Reason::Unsure)
-        } else if self.verdict != today.verdict.as_str() {
+        } else if self.verdict != "unsure" && self.verdict != today.verdict.as_str() {
             Some(Reason::Changed)
         } else {
             None
@@ -228,6 +269,58 @@ mod tests {
         }
     }
 
+    fn replied(item: &str, text: &str, verdict: &str) -> Event {
+        Event::Replied {
+            item: item.into(),
+            attempt: 1,
+            about: "wrong-shape".into(),
+            rung: crate::session::Rung::Ask,
+            asked: "Where?".into(),
+            text: text.into(),
+            verdict: verdict.into(),
+            met: Vec::new(),
+            missed: Vec::new(),
+            misconceptions: Vec::new(),
+            slips: Vec::new(),
+            unsure: Vec::new(),
+            judge: "1".into(),
+            why: Vec::new(),
+        }
+    }
+
+    fn disputed(item: &str, verdict: &str) -> Event {
+        Event::SecondOpinion {
+            item: item.into(),
+            attempt: 1,
+            by: "a colleague".into(),
+            result: "disputes".into(),
+            problem: None,
+            own_verdict: Some("pass".into()),
+            says: BTreeMap::new(),
+            why: Vec::new(),
+            disputed: vec!["wrong-shape".into()],
+            settled: Vec::new(),
+            verdict: verdict.into(),
+            met: Vec::new(),
+            missed: Vec::new(),
+            misconceptions: Vec::new(),
+            slips: Vec::new(),
+            unsure: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn replies_belong_to_the_answer() {
+        let item = "smith-g2/explain-3";
+        let all = explanations(&record(vec![
+            explained(item, 1, "No idea.", "unsure"),
+            replied(item, "The rim is bright.", "pass"),
+        ]));
+        assert_eq!(all.len(), 1);
+        assert_eq!(all[0].whole(), "No idea.\nThe rim is bright.");
+        assert_eq!((all[0].verdict.as_str(), all[0].told()), ("unsure", "pass"));
+    }
+
     fn record(events: Vec<Event>) -> Record {
         let start = Start {
             seed: 1,
@@ -266,6 +359,19 @@ mod tests {
             vec![no_idea("unsure"), self_marked(item, 1, "pass")],
             "pass",
             Some(Reason::SelfMarked),
+        );
+        check(
+            vec![
+                no_idea("unsure"),
+                replied(item, "The rim is bright.", "pass"),
+            ],
+            "pass",
+            None,
+        );
+        check(
+            vec![no_idea("fail"), disputed(item, "fail")],
+            "fail",
+            Some(Reason::Disputed),
         );
         // A mark of another try settles nothing here.
         check(

@@ -19,7 +19,7 @@ pub struct Waiting {
     pub reason: Reason,
     /// The rubric of its question.
     pub rubric: Rubric,
-    /// What today's judge hears.
+    /// What today's judge hears in answer and replies.
     pub today: Judgement,
 }
 
@@ -196,7 +196,7 @@ impl Review {
             id: waiting.id.clone(),
             item: waiting.rubric.item.clone(),
             writer: waiting.learner.clone(),
-            text: waiting.explanation.text.clone(),
+            text: waiting.explanation.whole(),
             met: Some(said(false)),
             misconceptions: Some(said(true)),
             verdict: verdict.as_str().to_owned(),
