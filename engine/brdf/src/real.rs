@@ -331,6 +331,9 @@ pub(crate) trait Single: Real {
     fn one_minus_square(self) -> Self {
         (lit::<Self>(1.0) - self) * (lit::<Self>(1.0) + self)
     }
+
+    /// sin and cos of 2π times this, see [`crate::batch::sin_cos_turn`].
+    fn sin_cos_turn(self) -> (Self, Self);
 }
 
 impl Single for f32 {
@@ -342,13 +345,17 @@ impl Single for f32 {
     fn store(self) -> f32 {
         self
     }
+    #[inline(always)]
+    fn sin_cos_turn(self) -> (f32, f32) {
+        crate::batch::sin_cos_turn(self)
+    }
 }
 
 /// Single precision where the machine multiplies and adds in one instruction.
 ///
 /// Only for functions compiled with that feature: elsewhere each `mul_add` is a library call.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
-pub(crate) struct Fused(f32);
+pub(crate) struct Fused(pub(crate) f32);
 
 impl Single for Fused {
     #[inline(always)]
@@ -362,6 +369,10 @@ impl Single for Fused {
     #[inline(always)]
     fn one_minus_square(self) -> Fused {
         (-self).mul_add(self, lit(1.0))
+    }
+    #[inline(always)]
+    fn sin_cos_turn(self) -> (Fused, Fused) {
+        crate::batch::sin_cos_turn(self)
     }
 }
 

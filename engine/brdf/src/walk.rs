@@ -12,7 +12,7 @@
 //! holds what follows: with visible normals light takes the same way back and single
 //! scattering is ∫ D G₂, with those of the slides neither.
 
-use crate::batch::{Isa, Level, dispatch, ln_unit, sin_cos_turn};
+use crate::batch::{Isa, Level, dispatch, ln_unit};
 use crate::ggx::{Ggx, Sampler};
 use crate::real::{Fused, Real, Single, lit};
 use crate::vector::{Vector, add, dot, normalize, reflect, scale};
@@ -320,7 +320,7 @@ fn step<S: Single>(block: &mut Block, active: usize, alpha: f32, bounce: u32) {
         let std = [alpha * v[0] * invert, alpha * v[1] * invert, v[2] * invert];
         let cap = (one - u1).mul_add(one + std[2], -std[2]);
         let sin = ((one - cap) * (one + cap)).at_least(lit(0.0)).sqrt();
-        let (sin_phi, cos_phi) = sin_cos_turn(u2);
+        let (sin_phi, cos_phi) = u2.sin_cos_turn();
         let m = [
             alpha * sin.mul_add(cos_phi, std[0]),
             alpha * sin.mul_add(sin_phi, std[1]),

@@ -279,3 +279,81 @@ fn every_term_is_the_same_in_lanes() {
         }
     }
 }
+
+/// What does not fill a register is computed alone, and must not differ in a bit.
+#[test]
+fn any_length() {
+    let mut numbers = Numbers(6);
+    let columns = [0; 6].map(|_| numbers.many(0.01));
+    let l: Vec<Vec3> = (0..COUNT).map(|_| numbers.direction()).collect();
+    let v: Vec<Vec3> = (0..COUNT).map(|_| numbers.direction()).collect();
+    let metal = [
+        Conductor::new(0.143, 3.983),
+        Conductor::new(0.375, 2.386),
+        Conductor::new(1.442, 1.603),
+    ];
+    // Everything that fills slices of this length, one after the other.
+    let all = |isa: Isa, n: usize, known: bool| {
+        let [a, b, c, d, e, f] = columns.each_ref().map(|column| &column[..n]);
+        let either = |values, value| match known {
+            true => Input::All(value),
+            false => Input::Each(values),
+        };
+        let cosines = Cosines {
+            n_dot_l: a,
+            n_dot_v: either(b, 0.6),
+            n_dot_h: c,
+            v_dot_h: d,
+            alpha: either(e, 0.3),
+            f0: Some(Input::Each(f)),
+        };
+        let mut out: [Vec<f32>; 10] = [0; 10].map(|_| vec![7.0; n]);
+        let [o0, o1, o2, o3, o4, o5, o6, o7, o8, o9] = &mut out;
+        batch::specular(isa, &cosines, o0);
+        batch::specular_vec3(isa, &l[..n], &v, 0.3, Some(0.04), o1);
+        batch::conductor_rgb(isa, &metal, a, [o2, o3, o4]);
+        let samples = Samples {
+            l: [o5, o6, o7],
+            pdf: o8,
+            weight: o9,
+        };
+        batch::sample(isa, Vec3::new(0.48, -0.36, 0.8), 0.4, [a, b], samples);
+        out
+    };
+    for isa in Isa::available() {
+        for known in [false, true] {
+            let long = all(isa, 200, known);
+            for n in 0..70 {
+                for (short, long) in all(isa, n, known).iter().zip(&long) {
+                    assert_eq!(short[..], long[..n], "{} {n}", isa.name());
+                }
+            }
+        }
+    }
+}
+
+/// A NaN stays in its place, and is not lost.
+#[test]
+fn not_a_number() {
+    let good = [0.5; 40];
+    let mut bad = good;
+    bad[17] = f32::NAN;
+    for isa in Isa::available() {
+        for place in 0..4 {
+            let pick = |i: usize| if i == place { &bad[..] } else { &good };
+            let input = Cosines {
+                n_dot_l: pick(0),
+                n_dot_v: Input::Each(pick(1)),
+                n_dot_h: pick(2),
+                v_dot_h: pick(3),
+                alpha: Input::All(0.4),
+                f0: Some(Input::All(0.04)),
+            };
+            let mut out = [7.0; 40];
+            batch::specular(isa, &input, &mut out);
+            for (i, value) in out.iter().enumerate() {
+                assert_eq!(value.is_nan(), i == 17, "{} {place} {i}", isa.name());
+            }
+        }
+    }
+}

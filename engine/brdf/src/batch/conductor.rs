@@ -1,8 +1,9 @@
 //! The exact reflectance of a conductor in three colours.
 
-use super::{Isa, Level, dispatch};
+use super::lanes::{At, Column, Kernel, Lanes, Out, run};
+use super::{Isa, Level, dispatch, dispatch_lanes};
 use crate::fresnel::f_conductor;
-use crate::real::{Fused, Real, Single, lit};
+use crate::real::{Fused, Real, Single};
 use std::f64::consts::PI;
 
 /// One colour of a conductor, prepared: its reflectance as one quotient.
@@ -164,44 +165,95 @@ fn least_squares(rows: &mut [[f64; UNKNOWNS + 1]]) -> [f64; UNKNOWNS] {
 /// Within 12 ulps, by the quotient of [`Conductor`] where all three colours have one; else
 /// the formula itself.
 pub fn conductor_rgb(isa: Isa, colors: &[Conductor; 3], v_dot_h: &[f32], out: [&mut [f32]; 3]) {
-    let [red, green, blue] = out;
-    dispatch!(isa, conductor_body(colors: &[Conductor; 3], v_dot_h: &[f32], red: &mut [f32], green: &mut [f32], blue: &mut [f32]))
+    let n = out
+        .iter()
+        .map(|out| out.len())
+        .fold(v_dot_h.len(), usize::min);
+    let v_dot_h = &v_dot_h[..n];
+    if let [Some(r), Some(g), Some(b)] = colors.map(|color| color.quotient) {
+        let colors = &[r, g, b];
+        dispatch_lanes!(isa, quotients(colors: &[Quotient<f32>; 3], v_dot_h: &[f32], out: [&mut [f32]; 3]))
+    } else {
+        let [red, green, blue] = out.map(|out| &mut out[..n]);
+        dispatch!(isa, formula(colors: &[Conductor; 3], v_dot_h: &[f32], red: &mut [f32], green: &mut [f32], blue: &mut [f32]))
+    }
 }
 
 #[inline(always)]
-fn conductor_body<S: Single>(
+fn formula<S: Single>(
     colors: &[Conductor; 3],
     v_dot_h: &[f32],
     red: &mut [f32],
     green: &mut [f32],
     blue: &mut [f32],
 ) {
-    let n = v_dot_h
-        .len()
-        .min(red.len())
-        .min(green.len())
-        .min(blue.len());
-    let (v_dot_h, red, green, blue) = (
-        &v_dot_h[..n],
-        &mut red[..n],
-        &mut green[..n],
-        &mut blue[..n],
-    );
-    let [Some(r), Some(g), Some(b)] = colors.map(|color| color.quotient) else {
-        for i in 0..n {
-            let at = |color: &Conductor| {
-                f_conductor(S::load(color.n), S::load(color.k), S::load(v_dot_h[i])).store()
-            };
-            (red[i], green[i], blue[i]) = (at(&colors[0]), at(&colors[1]), at(&colors[2]));
-        }
-        return;
+    for (i, &c) in v_dot_h.iter().enumerate() {
+        let at =
+            |color: &Conductor| f_conductor(S::load(color.n), S::load(color.k), S::load(c)).store();
+        (red[i], green[i], blue[i]) = (at(&colors[0]), at(&colors[1]), at(&colors[2]));
+    }
+}
+
+#[inline(always)]
+fn quotients<V: Lanes, T: Lanes>(
+    colors: &[Quotient<f32>; 3],
+    v_dot_h: &[f32],
+    out: [&mut [f32]; 3],
+) {
+    let n = v_dot_h.len();
+    let kernel = Quotients {
+        colors: *colors,
+        v_dot_h: Column::new(v_dot_h, n),
+        out: out.map(|out| Out::new(out, n)),
     };
-    let [r, g, b] = [r, g, b].map(|quotient| quotient.map(S::load));
-    for i in 0..n {
-        let c = S::load(v_dot_h[i]).at_least(lit(0.0)).at_most(lit(1.0));
-        red[i] = r.at(c).store();
-        green[i] = g.at(c).store();
-        blue[i] = b.at(c).store();
+    run::<V, T>(n, &kernel);
+}
+
+/// Dividend and divisor.
+#[inline(always)]
+fn both<S: Lanes>(color: &Quotient<f32>, c: S) -> (S, S) {
+    (horner(&color.dividend, c), horner(&color.divisor, c))
+}
+
+#[inline(always)]
+fn horner<S: Lanes>([c0, c1, c2, c3, c4]: &[f32; DEGREE + 1], c: S) -> S {
+    S::splat(*c4)
+        .mul_add(c, S::splat(*c3))
+        .mul_add(c, S::splat(*c2))
+        .mul_add(c, S::splat(*c1))
+        .mul_add(c, S::splat(*c0))
+}
+
+struct Quotients<'a> {
+    colors: [Quotient<f32>; 3],
+    v_dot_h: Column<'a>,
+    out: [Out<'a>; 3],
+}
+
+impl<S: Lanes> Kernel<S> for Quotients<'_> {
+    /// Dividends and divisors.
+    type First = [(S, S); 3];
+    type Second = [S; 3];
+
+    #[inline(always)]
+    fn first(&self, at: At) -> [(S, S); 3] {
+        let c = self.v_dot_h.at::<S>(at);
+        let c = c.at_least(S::splat(0.0)).at_most(S::splat(1.0));
+        let [r, g, b] = &self.colors;
+        [both(r, c), both(g, c), both(b, c)]
+    }
+
+    #[inline(always)]
+    fn second(&self, _: At, first: [(S, S); 3]) -> [S; 3] {
+        let [r, g, b] = first;
+        [r.0 / r.1, g.0 / g.1, b.0 / b.1]
+    }
+
+    #[inline(always)]
+    fn third(&self, at: At, [r, g, b]: [S; 3]) {
+        self.out[0].put(at, r);
+        self.out[1].put(at, g);
+        self.out[2].put(at, b);
     }
 }
 

@@ -1,41 +1,30 @@
 //! Elementary functions without branches and calls, for loops that are to be vectorised.
 
+use super::lanes::{self, Lanes};
 use crate::real::{Single, lit};
 use std::f64::consts::FRAC_PI_2;
 
 /// sin and cos of 2π u for u in [0, 1], by polynomials on an eighth of a turn; within 1e-7.
 #[inline(always)]
-pub(crate) fn sin_cos_turn<S: Single>(u: S) -> (S, S) {
+pub(crate) fn sin_cos_turn<S: Lanes>(u: S) -> (S, S) {
+    let lit = lanes::lit::<S>;
     // Quarter turns, rounded by adding a large number, in whose last bits they are then.
-    let magic = lit::<S>(12_582_912.0);
-    let quarters = lit::<S>(4.0) * u;
+    let magic = lit(12_582_912.0);
+    let quarters = lit(4.0) * u;
     let rounded = quarters + magic;
-    let count = rounded.store().to_bits();
     // The rest in [−½, ½] quarter turns; exact.
     let r = quarters - (rounded - magic);
     let r2 = r * r;
     // Minimax of sin(π r/2)/r and cos(π r/2) in r².
-    let sin = r * lit::<S>(-4.601_657_4e-3)
+    let sin = r * lit(-4.601_657_4e-3)
         .mul_add(r2, lit(7.968_003_3e-2))
         .mul_add(r2, lit(-0.645_963_46))
         .mul_add(r2, lit(FRAC_PI_2));
-    let cos = lit::<S>(-2.041_728_2e-2)
+    let cos = lit(-2.041_728_2e-2)
         .mul_add(r2, lit(0.253_603_21))
         .mul_add(r2, lit(-1.233_697_7))
         .mul_add(r2, lit(1.0));
-    // Swapped after an odd number of quarters; sin is negative after 2 and 3, cos after 1 and 2.
-    let (a, b) = if count & 1 == 0 {
-        (sin, cos)
-    } else {
-        (cos, sin)
-    };
-    (signed(a, count), signed(b, count.wrapping_add(1)))
-}
-
-/// `x`, its sign turned where the second bit of `count` is set.
-#[inline(always)]
-fn signed<S: Single>(x: S, count: u32) -> S {
-    S::load(f32::from_bits(x.store().to_bits() ^ ((count & 2) << 30)))
+    S::turned(rounded, sin, cos)
 }
 
 /// ln of a normal number.

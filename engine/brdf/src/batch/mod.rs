@@ -15,8 +15,11 @@
 
 mod conductor;
 mod functions;
+mod lanes;
 mod sample;
 mod specular;
+#[cfg(target_arch = "x86_64")]
+mod x86;
 
 pub use conductor::{Conductor, conductor_rgb};
 pub(crate) use functions::{ln_unit, sin_cos_turn};
@@ -24,6 +27,7 @@ pub use sample::{Samples, sample};
 pub use specular::{Cosines, Vectors, specular, specular_vec3, specular_vectors};
 
 use crate::real::{Fused, Single, lit};
+use lanes::{At, Column, Lanes};
 
 /// A set of instructions that this machine has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -110,37 +114,24 @@ impl Input<'_> {
 
 /// An [`Input`] whose kind is known at compile time.
 trait Source: Copy {
-    /// Cut to a length, so that the loop needs no bounds checks.
-    fn cut(self, n: usize) -> Self;
-    /// The value for one evaluation.
-    fn at<S: Single>(self, i: usize) -> S;
+    /// The values for the evaluations of a register.
+    fn at<S: Lanes>(self, at: At) -> S;
 }
-
-#[derive(Clone, Copy)]
-struct Each<'a>(&'a [f32]);
 
 #[derive(Clone, Copy)]
 struct All(f32);
 
-impl Source for Each<'_> {
+impl Source for Column<'_> {
     #[inline(always)]
-    fn cut(self, n: usize) -> Self {
-        Each(&self.0[..n])
-    }
-    #[inline(always)]
-    fn at<S: Single>(self, i: usize) -> S {
-        S::load(self.0[i])
+    fn at<S: Lanes>(self, at: At) -> S {
+        Column::at(self, at)
     }
 }
 
 impl Source for All {
     #[inline(always)]
-    fn cut(self, _: usize) -> All {
-        self
-    }
-    #[inline(always)]
-    fn at<S: Single>(self, _: usize) -> S {
-        S::load(self.0)
+    fn at<S: Lanes>(self, _: At) -> S {
+        S::splat(self.0)
     }
 }
 
@@ -149,7 +140,7 @@ macro_rules! for_kinds {
     ($n:expr; $input:expr, $name:ident => $call:expr) => {
         match $input {
             Input::Each(values) => {
-                let $name = Each(&values[..$n]);
+                let $name = Column::new(values, $n);
                 $call
             }
             Input::All(value) => {
@@ -185,8 +176,37 @@ macro_rules! dispatch {
     }};
 }
 
+/// Runs a body that is generic over its registers, and over one lane of them, with those of an
+/// [`Isa`].
+macro_rules! dispatch_lanes {
+    ($isa:expr, $body:ident ( $($arg:ident : $type:ty),* )) => {{
+        #[cfg(target_arch = "x86_64")]
+        #[target_feature(enable = "avx2,fma")]
+        fn avx2($($arg: $type),*) {
+            $body::<crate::batch::x86::F32x8, crate::real::Fused>($($arg),*)
+        }
+        #[cfg(target_arch = "x86_64")]
+        #[target_feature(enable = "avx2,fma,avx512f,avx512vl,avx512dq,avx512bw")]
+        fn avx512($($arg: $type),*) {
+            $body::<crate::batch::x86::F32x16, crate::real::Fused>($($arg),*)
+        }
+        match $isa.0 {
+            #[cfg(target_arch = "x86_64")]
+            Level::Baseline => $body::<crate::batch::x86::F32x4, f32>($($arg),*),
+            #[cfg(not(target_arch = "x86_64"))]
+            Level::Baseline => $body::<f32, f32>($($arg),*),
+            // SAFETY: an `Isa` above the baseline exists only where its features were detected.
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx2 => unsafe { avx2($($arg),*) },
+            // SAFETY: as above.
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx512 => unsafe { avx512($($arg),*) },
+        }
+    }};
+}
+
 pub(crate) use dispatch;
-use for_kinds;
+use {dispatch_lanes, for_kinds};
 
 /// Quotients, to measure how fast the machine divides.
 pub fn divide(isa: Isa, a: &[f32], b: &[f32], out: &mut [f32]) {

@@ -1,8 +1,7 @@
 //! Drawing lights for one view.
 
-use super::specular::above;
-use super::{Isa, Level, dispatch, sin_cos_turn};
-use crate::real::{Fused, Single, lit};
+use super::lanes::{At, Column, Kernel, Lanes, Out, run};
+use super::{Isa, Level, dispatch_lanes, sin_cos_turn};
 use glam::Vec3;
 use std::f64::consts::FRAC_1_PI;
 
@@ -22,95 +21,121 @@ pub struct Samples<'a> {
 ///
 /// See [`crate::Ggx::sample`]. The view is expected above the horizon, of length 1.
 pub fn sample(isa: Isa, v: Vec3, alpha: f32, u: [&[f32]; 2], out: Samples) {
-    dispatch!(isa, sample_body(v: Vec3, alpha: f32, u: [&[f32]; 2], out: Samples))
+    dispatch_lanes!(isa, sample_body(v: Vec3, alpha: f32, u: [&[f32]; 2], out: Samples))
 }
 
 #[inline(always)]
-fn sample_body<S: Single>(v: Vec3, alpha: f32, u: [&[f32]; 2], out: Samples) {
+fn sample_body<V: Lanes, T: Lanes>(v: Vec3, alpha: f32, u: [&[f32]; 2], out: Samples) {
     let [x, y, z] = out.l;
-    let (pdf, weight) = (out.pdf, out.weight);
-    let n = [
-        u[0].len(),
-        u[1].len(),
-        x.len(),
-        y.len(),
-        z.len(),
-        pdf.len(),
-        weight.len(),
-    ];
-    let n = n.into_iter().fold(usize::MAX, usize::min);
-    let [u0, u1] = u.map(|u| &u[..n]);
-    let [x, y, z, pdf, weight] = [x, y, z, pdf, weight].map(|out| &mut out[..n]);
-    let one = lit::<S>(1.0);
-    let cap = Cap::new(v, alpha);
-    let known = cap.map(lit::<S>);
-    let v = v.to_array().map(S::load);
-    for i in 0..n {
+    let out = [x, y, z, out.pdf, out.weight];
+    let n = out.iter().map(|out| out.len());
+    let n = n.chain(u.map(<[f32]>::len)).fold(usize::MAX, usize::min);
+    let [x, y, z, pdf, weight] = out.map(|out| Out::new(out, n));
+    let drawing = Drawing {
+        cap: Cap::new(v, alpha),
+        v: v.to_array(),
+        u: u.map(|u| Column::new(u, n)),
+        l: [x, y, z],
+        pdf,
+        weight,
+    };
+    run::<V, T>(n, &drawing);
+}
+
+struct Drawing<'a> {
+    cap: Cap,
+    v: [f32; 3],
+    u: [Column<'a>; 2],
+    l: [Out<'a>; 3],
+    pdf: Out<'a>,
+    weight: Out<'a>,
+}
+
+impl<S: Lanes> Kernel<S> for Drawing<'_> {
+    /// Sine around the cap's pole, sine and cosine around it, height of the half vector.
+    type First = [S; 4];
+    /// The light's height, its length where the surface is stretched, and the quotient of the
+    /// density.
+    type Second = [S; 3];
+
+    #[inline(always)]
+    fn first(&self, at: At) -> [S; 4] {
+        let cap = &self.cap;
+        let (u0, u1) = (self.u[0].at::<S>(at), self.u[1].at::<S>(at));
         // How far below the pole of the cap, and how far above its rim, without differences.
-        let (below, rise) = (S::load(u1[i]), one - S::load(u1[i]));
-        let sin2 = (known.depth * below) * rise.mul_add(known.depth, known.rim);
-        let sin = sin2.sqrt();
-        let (sin_phi, cos_phi) = sin_cos_turn(S::load(u0[i]));
+        let (rise, depth) = (S::splat(1.0) - u1, S::splat(cap.depth));
+        let sin2 = (depth * u1) * rise.mul_add(depth, S::splat(cap.rim));
+        let (sin_phi, cos_phi) = sin_cos_turn(u0);
+        let up = rise.mul_add(depth, S::splat(cap.lowest));
+        [sin2.sqrt(), sin_phi, cos_phi, up]
+    }
+
+    #[inline(always)]
+    fn second(&self, at: At, [sin, sin_phi, cos_phi, up]: [S; 4]) -> [S; 3] {
+        let cap = &self.cap;
         // The half vector where the surface is stretched to α = 1, without its length: the sum
         // of two directions.
-        let [x_view, y_view] = known.view;
         let h = [
-            sin.mul_add(cos_phi, x_view),
-            sin.mul_add(sin_phi, y_view),
-            rise.mul_add(known.depth, known.lowest),
+            sin.mul_add(cos_phi, S::splat(cap.view[0])),
+            sin.mul_add(sin_phi, S::splat(cap.view[1])),
+            up,
         ];
         let (across, up) = (h[0].mul_add(h[0], h[1] * h[1]), h[2] * h[2]);
         // |h|², which is 2 V·M over the stretched view's length, and the square of its length on
         // the surface: their quotient is in the mirror and in D.
-        let (stretched, squeezed) = (across + up, known.a2.mul_add(across, up));
+        let (stretched, squeezed) = (across + up, S::splat(cap.a2).mul_add(across, up));
         let mirror = stretched / squeezed;
-        let (aside, upward) = (known.aside * mirror, known.upward * mirror);
-        let l = [
-            aside.mul_add(h[0], -v[0]),
-            aside.mul_add(h[1], -v[1]),
-            upward.mul_add(h[2], -v[2]),
+        let aside = S::splat(cap.aside) * mirror;
+        let upward = S::splat(cap.upward) * mirror;
+        let from = [
+            S::splat(-self.v[0]),
+            S::splat(-self.v[1]),
+            S::splat(-self.v[2]),
         ];
-        let density = squeezed / stretched;
-        x[i] = l[0].store();
-        y[i] = l[1].store();
-        z[i] = l[2].store();
-        pdf[i] = (density * density * known.density).store();
+        self.l[0].put(at, aside.mul_add(h[0], from[0]));
+        self.l[1].put(at, aside.mul_add(h[1], from[1]));
+        let l = upward.mul_add(h[2], from[2]);
+        self.l[2].put(at, l);
+        let length = (l * l).mul_add(S::splat(cap.rest), S::splat(cap.a2));
+        [l, length.sqrt(), squeezed / stretched]
     }
-    for i in 0..n {
-        let l = S::load(z[i]);
-        let l_length = (l * l).mul_add(known.rest, known.a2).sqrt();
-        let w = l.mul_add(known.length, known.z * l_length);
-        weight[i] = above(l, l / w).store();
+
+    #[inline(always)]
+    fn third(&self, at: At, [l, length, density]: [S; 3]) {
+        let cap = &self.cap;
+        let w = l.mul_add(S::splat(cap.length), S::splat(cap.z) * length);
+        self.pdf.put(at, density * density * S::splat(cap.density));
+        self.weight.put(at, l.masks(l / w));
     }
 }
 
 /// What depends on the view and the width alone.
 #[derive(Clone, Copy)]
-struct Cap<R> {
+struct Cap {
     /// From the cap's pole to its rim.
-    depth: R,
+    depth: f32,
     /// Height of the rim over the sphere's lowest point.
-    rim: R,
+    rim: f32,
     /// Height of the lowest half vector.
-    lowest: R,
+    lowest: f32,
     /// The stretched view, of length 1, along the tangent and the bitangent.
-    view: [R; 2],
+    view: [f32; 2],
     /// α² and 1 − α².
-    a2: R,
-    rest: R,
+    a2: f32,
+    rest: f32,
     /// The stretched view's length times α, and as it is.
-    aside: R,
-    upward: R,
+    aside: f32,
+    upward: f32,
     /// Density over the square of the quotient of lengths.
-    density: R,
+    density: f32,
     /// The factors of the weight's divisor: infinite for a view below the horizon.
-    length: R,
-    z: R,
+    length: f32,
+    z: f32,
 }
 
-impl Cap<f64> {
+impl Cap {
     #[inline(always)]
-    fn new(v: Vec3, alpha: f32) -> Cap<f64> {
+    fn new(v: Vec3, alpha: f32) -> Cap {
         let ([x, y, z], a) = (v.to_array().map(f64::from), f64::from(alpha));
         let (a2, rest) = (a * a, (1.0 - a) * (1.0 + a));
         let across = x * x + y * y;
@@ -126,34 +151,17 @@ impl Cap<f64> {
         let share = 0.5 / (bound * z + length);
         let lit = if z > 0.0 { 2.0 * share } else { f64::INFINITY };
         Cap {
-            depth: 1.0 + low,
-            rim: 1.0 - low,
-            lowest: (1.0 - bound) * (z / length),
-            view: [a * x / length, a * y / length],
-            a2,
-            rest,
-            aside: length * a,
-            upward: length,
-            density: share * FRAC_1_PI / a2,
-            length: length * lit,
-            z: z * lit,
-        }
-    }
-
-    #[inline(always)]
-    fn map<R>(self, f: impl Fn(f64) -> R) -> Cap<R> {
-        Cap {
-            depth: f(self.depth),
-            rim: f(self.rim),
-            lowest: f(self.lowest),
-            view: self.view.map(&f),
-            a2: f(self.a2),
-            rest: f(self.rest),
-            aside: f(self.aside),
-            upward: f(self.upward),
-            density: f(self.density),
-            length: f(self.length),
-            z: f(self.z),
+            depth: (1.0 + low) as f32,
+            rim: (1.0 - low) as f32,
+            lowest: ((1.0 - bound) * (z / length)) as f32,
+            view: [x, y].map(|across| (a * across / length) as f32),
+            a2: a2 as f32,
+            rest: rest as f32,
+            aside: (length * a) as f32,
+            upward: length as f32,
+            density: (share * FRAC_1_PI / a2) as f32,
+            length: (length * lit) as f32,
+            z: (z * lit) as f32,
         }
     }
 }

@@ -1,8 +1,7 @@
 //! D V F cos θ from cosines and from vectors.
 
-use super::{All, Each, Input, Isa, Source, dispatch, for_kinds};
-use crate::batch::Level;
-use crate::real::{Fused, Single, lit};
+use super::lanes::{At, Column, Kernel, Lanes, Out, Triples, lit, run};
+use super::{All, Input, Isa, Level, Source, dispatch_lanes, for_kinds};
 use glam::Vec3;
 use std::f64::consts::{FRAC_1_PI, PI};
 
@@ -26,11 +25,11 @@ pub struct Cosines<'a> {
 /// D V F cos θ_l of GGX with Schlick's reflectance, see [`crate::d_ggx`], [`crate::v_ggx`] and
 /// [`crate::f_schlick`].
 pub fn specular(isa: Isa, input: &Cosines, out: &mut [f32]) {
-    dispatch!(isa, specular_body(input: &Cosines, out: &mut [f32]))
+    dispatch_lanes!(isa, specular_body(input: &Cosines, out: &mut [f32]))
 }
 
 #[inline(always)]
-fn specular_body<S: Single>(input: &Cosines, out: &mut [f32]) {
+fn specular_body<V: Lanes, T: Lanes>(input: &Cosines, out: &mut [f32]) {
     let n = [
         input.n_dot_l.len(),
         input.n_dot_v.len(),
@@ -41,98 +40,151 @@ fn specular_body<S: Single>(input: &Cosines, out: &mut [f32]) {
     ]
     .into_iter()
     .fold(out.len(), usize::min);
-    let out = &mut out[..n];
+    let (light, half) = (Column::new(input.n_dot_l, n), Column::new(input.n_dot_h, n));
+    let (u, out) = (Column::new(input.v_dot_h, n), Out::new(out, n));
     if let (Input::All(view), Input::All(alpha)) = (input.n_dot_v, input.alpha)
-        && let Some(known) = Known::<S>::new(view, alpha)
+        && let Some(known) = Known::new(view, alpha)
     {
+        macro_rules! run_known {
+            ($mirror:expr) => {
+                run::<V, T>(
+                    n,
+                    &KnownCosines {
+                        light,
+                        half,
+                        known,
+                        mirror: $mirror,
+                        out,
+                    },
+                )
+            };
+        }
         return match input.f0 {
-            None => known_perfect_loop(input, known, out),
-            Some(f0) => for_kinds!(n; f0, f0 => known_loop(input, known, f0, out)),
+            None => run_known!(Perfect),
+            Some(f0) => for_kinds!(n; f0, f0 => run_known!(Schlick { u, f0 })),
+        };
+    }
+    macro_rules! run_any {
+        ($view:ident, $alpha:ident, $mirror:expr) => {
+            run::<V, T>(
+                n,
+                &AnyCosines {
+                    light,
+                    view: $view,
+                    half,
+                    alpha: $alpha,
+                    mirror: $mirror,
+                    out,
+                },
+            )
         };
     }
     for_kinds!(n; input.n_dot_v, view => for_kinds!(n; input.alpha, alpha => match input.f0 {
-        None => specular_perfect_loop::<S>(input, view, alpha, out),
-        Some(f0) => for_kinds!(n; f0, f0 => specular_loop::<S>(input, view, alpha, f0, out)),
+        None => run_any!(view, alpha, Perfect),
+        Some(f0) => for_kinds!(n; f0, f0 => run_any!(view, alpha, Schlick { u, f0 })),
     }))
 }
 
-#[inline(always)]
-fn specular_loop<S: Single>(
-    input: &Cosines,
-    view: impl Source,
-    alpha: impl Source,
-    f0: impl Source,
-    out: &mut [f32],
-) {
-    let n = out.len();
-    let (light, h, u) = (
-        &input.n_dot_l[..n],
-        &input.n_dot_h[..n],
-        &input.v_dot_h[..n],
-    );
-    for i in 0..n {
-        let value = specular_cos(
-            S::load(light[i]),
-            view.at::<S>(i),
-            S::load(h[i]),
-            alpha.at::<S>(i),
-        );
-        out[i] = (value * schlick(f0.at::<S>(i), lit::<S>(1.0) - S::load(u[i]))).store();
+/// What the facets reflect.
+trait Mirror: Copy {
+    /// `value` times the reflectance.
+    fn times<S: Lanes>(self, at: At, value: S) -> S;
+}
+
+#[derive(Clone, Copy)]
+struct Perfect;
+
+impl Mirror for Perfect {
+    #[inline(always)]
+    fn times<S: Lanes>(self, _: At, value: S) -> S {
+        value
     }
 }
 
-#[inline(always)]
-fn specular_perfect_loop<S: Single>(
-    input: &Cosines,
-    view: impl Source,
-    alpha: impl Source,
-    out: &mut [f32],
-) {
-    let n = out.len();
-    let (light, h) = (&input.n_dot_l[..n], &input.n_dot_h[..n]);
-    let (view, alpha) = (view.cut(n), alpha.cut(n));
-    for i in 0..n {
-        out[i] = specular_cos(
-            S::load(light[i]),
-            view.at::<S>(i),
-            S::load(h[i]),
-            alpha.at::<S>(i),
-        )
-        .store();
+#[derive(Clone, Copy)]
+struct Schlick<'a, F> {
+    u: Column<'a>,
+    f0: F,
+}
+
+impl<F: Source> Mirror for Schlick<'_, F> {
+    #[inline(always)]
+    fn times<S: Lanes>(self, at: At, value: S) -> S {
+        value * schlick(self.f0.at(at), S::splat(1.0) - self.u.at::<S>(at))
     }
+}
+
+/// f0 + (1 − f0) m⁵ of m = 1 − V·H.
+#[inline(always)]
+fn schlick<S: Lanes>(f0: S, m: S) -> S {
+    let m2 = m * m;
+    (m2 * m2 * m).mul_add(S::splat(1.0) - f0, f0)
 }
 
 /// D V cos θ_l with a single quotient: α²/(2π) l / (t² (l sqrt(…) + v sqrt(…))), with
 /// t = α² + (1 − α²) sin²θ_h.
+struct AnyCosines<'a, V, A, M> {
+    light: Column<'a>,
+    view: V,
+    half: Column<'a>,
+    alpha: A,
+    mirror: M,
+    out: Out<'a>,
+}
+
+impl<S: Lanes, V: Source, A: Source, M: Mirror> Kernel<S> for AnyCosines<'_, V, A, M> {
+    /// α², N·L from 0 up, and the two roots.
+    type First = [S; 4];
+    type Second = S;
+
+    #[inline(always)]
+    fn first(&self, at: At) -> [S; 4] {
+        let (alpha, v) = (self.alpha.at::<S>(at), self.view.at::<S>(at));
+        let a2 = alpha * alpha;
+        let rest = S::splat(1.0) - a2;
+        // Below the horizon the numerator is 0.
+        let l = self.light.at::<S>(at).at_least(S::splat(0.0));
+        [a2, l, root(l, a2, rest), root(v, a2, rest)]
+    }
+
+    #[inline(always)]
+    fn second(&self, at: At, [a2, l, root_l, root_v]: [S; 4]) -> S {
+        let (h, v) = (self.half.at::<S>(at), self.view.at::<S>(at));
+        let t = h.one_minus_square().mul_add(S::splat(1.0) - a2, a2);
+        let w = l.mul_add(root_v, v * root_l);
+        a2 * lit(0.5 * FRAC_1_PI) * l / (t * t * w)
+    }
+
+    #[inline(always)]
+    fn third(&self, at: At, value: S) {
+        let value = self.view.at::<S>(at).masks(value);
+        self.out.put(at, self.mirror.times(at, value));
+    }
+}
+
+/// sqrt(α² + (1 − α²) x²) of a cosine.
 #[inline(always)]
-fn specular_cos<S: Single>(l: S, v: S, h: S, alpha: S) -> S {
-    let a2 = alpha * alpha;
-    let rest = lit::<S>(1.0) - a2;
-    let t = h.one_minus_square().mul_add(rest, a2);
-    // Below the horizon the numerator is 0.
-    let l = l.at_least(lit(0.0));
-    let root = |x: S| (x * x).mul_add(rest, a2).sqrt();
-    let w = l.mul_add(root(v), v * root(l));
-    above(v, a2 * lit(0.5 * FRAC_1_PI) * l / (t * t * w))
+fn root<S: Lanes>(x: S, a2: S, rest: S) -> S {
+    (x * x).mul_add(rest, a2).sqrt()
 }
 
 /// What is known of an evaluation whose view and width are.
 #[derive(Clone, Copy)]
-struct Known<S> {
+struct Known {
     /// t of the distribution over sqrt(α²/2π) is `t + t_slope` sin²θ_h.
-    t: S,
-    t_slope: S,
+    t: f32,
+    t_slope: f32,
     /// sqrt(α² + (1 − α²) v²).
-    root: S,
+    root: f32,
     /// v² (α² + (1 − α²) l²) is `square + square_slope` l².
-    square: S,
-    square_slope: S,
+    square: f32,
+    square_slope: f32,
 }
 
-impl<S: Single> Known<S> {
+impl Known {
     /// `None` where the factors would leave the range of single precision.
     #[inline(always)]
-    fn new(view: f32, alpha: f32) -> Option<Known<S>> {
+    fn new(view: f32, alpha: f32) -> Option<Known> {
         let (v, a) = (f64::from(view), f64::from(alpha));
         if !(v > 1e-12 && a > 1e-5 && v < 1e5 && a < 1e5) {
             return None;
@@ -140,69 +192,48 @@ impl<S: Single> Known<S> {
         let (a2, rest) = (a * a, (1.0 - a) * (1.0 + a));
         let scale = (2.0 * PI).sqrt() / a;
         Some(Known {
-            t: lit(a2 * scale),
-            t_slope: lit(rest * scale),
-            root: lit((a2 + rest * v * v).sqrt()),
-            square: lit(v * v * a2),
-            square_slope: lit(v * v * rest),
+            t: (a2 * scale) as f32,
+            t_slope: (rest * scale) as f32,
+            root: (a2 + rest * v * v).sqrt() as f32,
+            square: (v * v * a2) as f32,
+            square_slope: (v * v * rest) as f32,
         })
     }
+}
 
-    /// D V cos θ_l as l / (t² (l sqrt(…) + sqrt(…))).
+/// D V cos θ_l as l / (t² (l sqrt(…) + sqrt(…))).
+struct KnownCosines<'a, M> {
+    light: Column<'a>,
+    half: Column<'a>,
+    known: Known,
+    mirror: M,
+    out: Out<'a>,
+}
+
+impl<S: Lanes, M: Mirror> Kernel<S> for KnownCosines<'_, M> {
+    /// N·L from 0 up, and the root with it.
+    type First = [S; 2];
+    type Second = S;
+
     #[inline(always)]
-    fn cos(&self, l: S, h: S) -> S {
-        let t = h.one_minus_square().mul_add(self.t_slope, self.t);
-        let l = l.at_least(lit(0.0));
-        let w = l.mul_add(
-            self.root,
-            (l * l).mul_add(self.square_slope, self.square).sqrt(),
-        );
-        l / (t * t * w)
+    fn first(&self, at: At) -> [S; 2] {
+        let l = self.light.at::<S>(at).at_least(S::splat(0.0));
+        let (slope, square) = (self.known.square_slope, self.known.square);
+        [l, (l * l).mul_add(S::splat(slope), S::splat(square)).sqrt()]
     }
-}
 
-#[inline(always)]
-fn known_loop<S: Single>(input: &Cosines, known: Known<S>, f0: impl Source, out: &mut [f32]) {
-    let n = out.len();
-    let (light, h, u) = (
-        &input.n_dot_l[..n],
-        &input.n_dot_h[..n],
-        &input.v_dot_h[..n],
-    );
-    let f0 = f0.cut(n);
-    for i in 0..n {
-        let value = known.cos(S::load(light[i]), S::load(h[i]));
-        out[i] = (value * schlick(f0.at::<S>(i), lit::<S>(1.0) - S::load(u[i]))).store();
+    #[inline(always)]
+    fn second(&self, at: At, [l, root]: [S; 2]) -> S {
+        let h = self.half.at::<S>(at);
+        let (slope, t) = (self.known.t_slope, self.known.t);
+        let t = h.one_minus_square().mul_add(S::splat(slope), S::splat(t));
+        l / (t * t * l.mul_add(S::splat(self.known.root), root))
     }
-}
 
-#[inline(always)]
-fn known_perfect_loop<S: Single>(input: &Cosines, known: Known<S>, out: &mut [f32]) {
-    let n = out.len();
-    let (light, h) = (&input.n_dot_l[..n], &input.n_dot_h[..n]);
-    for i in 0..n {
-        out[i] = known.cos(S::load(light[i]), S::load(h[i])).store();
+    #[inline(always)]
+    fn third(&self, at: At, value: S) {
+        self.out.put(at, self.mirror.times(at, value));
     }
-}
-
-/// `value`, but 0 where a cosine is not above the horizon.
-#[inline(always)]
-pub(super) fn above<S: Single>(cosine: S, value: S) -> S {
-    if cosine <= lit(0.0) { lit(0.0) } else { value }
-}
-
-/// `value`, but 0 where a direction is not above the horizon.
-#[inline(always)]
-fn on_lit_side<S: Single>(l: S, v: S, value: S) -> S {
-    let lower = if l < v { l } else { v };
-    if lower <= lit(0.0) { lit(0.0) } else { value }
-}
-
-/// f0 + (1 − f0) m⁵ of m = 1 − V·H.
-#[inline(always)]
-fn schlick<S: Single>(f0: S, m: S) -> S {
-    let m2 = m * m;
-    (m2 * m2 * m).mul_add(lit::<S>(1.0) - f0, f0)
 }
 
 /// Arguments of [`specular_vectors`]: components of light and view in the tangent frame, each of
@@ -223,11 +254,11 @@ pub struct Vectors<'a> {
 ///
 /// See [`crate::Specular::eval_cos`].
 pub fn specular_vectors(isa: Isa, input: &Vectors, out: &mut [f32]) {
-    dispatch!(isa, vectors_body(input: &Vectors, out: &mut [f32]))
+    dispatch_lanes!(isa, vectors_body(input: &Vectors, out: &mut [f32]))
 }
 
 #[inline(always)]
-fn vectors_body<S: Single>(input: &Vectors, out: &mut [f32]) {
+fn vectors_body<V: Lanes, T: Lanes>(input: &Vectors, out: &mut [f32]) {
     let n = (input.l.iter().map(|l| l.len()))
         .chain(input.v.iter().map(Input::len))
         .chain([
@@ -235,119 +266,154 @@ fn vectors_body<S: Single>(input: &Vectors, out: &mut [f32]) {
             input.f0.map_or(usize::MAX, |f0| f0.len()),
         ])
         .fold(out.len(), usize::min);
-    let out = &mut out[..n];
+    let light = input.l.map(|l| Column::new(l, n));
+    let out = Out::new(out, n);
+    macro_rules! run_vectors {
+        ($view:expr) => {
+            for_kinds!(n; input.alpha, alpha => match input.f0 {
+                None => run::<V, T>(n, &Directed { light, view: $view, alpha, f0: None::<All>, out }),
+                Some(f0) => for_kinds!(n; f0, f0 => {
+                    run::<V, T>(n, &Directed { light, view: $view, alpha, f0: Some(f0), out })
+                }),
+            })
+        };
+    }
     match input.v {
-        [Input::All(x), Input::All(y), Input::All(z)] => {
-            vectors_view::<S, _, _, _>(input, (All(x), All(y), All(z)), out)
-        }
+        [Input::All(x), Input::All(y), Input::All(z)] => run_vectors!([x, y, z].map(All)),
         [Input::Each(x), Input::Each(y), Input::Each(z)] => {
-            vectors_view::<S, _, _, _>(input, (Each(&x[..n]), Each(&y[..n]), Each(&z[..n])), out)
+            run_vectors!([x, y, z].map(|view| Column::new(view, n)))
         }
-        // One component that varies makes a view that varies.
-        [x, y, z] => {
-            for (i, out) in out.iter_mut().enumerate() {
-                let at = |input: Input| match input {
-                    Input::Each(values) => values[i],
-                    Input::All(value) => value,
-                };
-                let l = input.l.map(|l| S::load(l[i]));
-                let v = [at(x), at(y), at(z)].map(S::load);
-                let value = vectors_cos(l, v, S::load(at(input.alpha)));
-                *out = match input.f0 {
-                    None => value.0.store(),
-                    Some(f0) => (value.0 * schlick(S::load(at(f0)), rest(l, v, value.1))).store(),
-                };
-            }
+        view => run_vectors!(view.map(|view| Mixed::new(view, n))),
+    }
+}
+
+/// An [`Input`] whose kind is found out in the loop: a jump that always goes the same way.
+#[derive(Clone, Copy)]
+enum Mixed<'a> {
+    Each(Column<'a>),
+    All(f32),
+}
+
+impl<'a> Mixed<'a> {
+    #[inline(always)]
+    fn new(input: Input<'a>, n: usize) -> Self {
+        match input {
+            Input::Each(values) => Mixed::Each(Column::new(values, n)),
+            Input::All(value) => Mixed::All(value),
         }
     }
 }
 
-#[inline(always)]
-fn vectors_view<S: Single, X: Source, Y: Source, Z: Source>(
-    input: &Vectors,
-    view: (X, Y, Z),
-    out: &mut [f32],
-) {
-    let n = out.len();
-    for_kinds!(n; input.alpha, alpha => match input.f0 {
-        None => vectors_perfect_loop::<S>(input.l, view, alpha, out),
-        Some(f0) => for_kinds!(n; f0, f0 => vectors_loop::<S>(input.l, view, alpha, f0, out)),
-    })
-}
-
-#[inline(always)]
-fn vectors_perfect_loop<S: Single>(
-    [x, y, z]: [&[f32]; 3],
-    view: (impl Source, impl Source, impl Source),
-    alpha: impl Source,
-    out: &mut [f32],
-) {
-    let n = out.len();
-    let (x, y, z, alpha) = (&x[..n], &y[..n], &z[..n], alpha.cut(n));
-    let view = (view.0.cut(n), view.1.cut(n), view.2.cut(n));
-    for i in 0..n {
-        let l = [S::load(x[i]), S::load(y[i]), S::load(z[i])];
-        let v = [view.0.at::<S>(i), view.1.at::<S>(i), view.2.at::<S>(i)];
-        out[i] = vectors_cos(l, v, alpha.at::<S>(i)).0.store();
+impl Source for Mixed<'_> {
+    #[inline(always)]
+    fn at<S: Lanes>(self, at: At) -> S {
+        match self {
+            Mixed::Each(column) => column.at(at),
+            Mixed::All(value) => S::splat(value),
+        }
     }
 }
 
-#[inline(always)]
-fn vectors_loop<S: Single>(
-    [x, y, z]: [&[f32]; 3],
-    view: (impl Source, impl Source, impl Source),
-    alpha: impl Source,
-    f0: impl Source,
-    out: &mut [f32],
-) {
-    let n = out.len();
-    let (x, y, z, alpha, f0) = (&x[..n], &y[..n], &z[..n], alpha.cut(n), f0.cut(n));
-    let view = (view.0.cut(n), view.1.cut(n), view.2.cut(n));
-    for i in 0..n {
-        let l = [S::load(x[i]), S::load(y[i]), S::load(z[i])];
-        let v = [view.0.at::<S>(i), view.1.at::<S>(i), view.2.at::<S>(i)];
-        let (value, m) = vectors_cos(l, v, alpha.at::<S>(i));
-        out[i] = (value * schlick(f0.at::<S>(i), rest(l, v, m))).store();
+/// Vectors to read.
+trait Directions: Copy {
+    fn at<S: Lanes>(self, at: At) -> [S; 3];
+}
+
+impl<X: Source> Directions for [X; 3] {
+    #[inline(always)]
+    fn at<S: Lanes>(self, at: At) -> [S; 3] {
+        let [x, y, z] = self;
+        [x.at(at), y.at(at), z.at(at)]
     }
 }
 
-/// x² + y².
-#[inline(always)]
-fn across<S: Single>(v: [S; 3]) -> S {
-    v[0].mul_add(v[0], v[1] * v[1])
+impl Directions for Triples<'_> {
+    #[inline(always)]
+    fn at<S: Lanes>(self, at: At) -> [S; 3] {
+        Triples::at(self, at)
+    }
 }
 
-/// sqrt(z² + α² (x² + y²)).
-#[inline(always)]
-fn projected<S: Single>(v: [S; 3], a2: S) -> S {
-    v[2].mul_add(v[2], a2 * across(v)).sqrt()
+/// D V F cos θ_l: two quotients of what [`crate::Ggx`] computes with.
+struct Directed<'a, L, V, A, F> {
+    light: L,
+    view: V,
+    alpha: A,
+    f0: Option<F>,
+    out: Out<'a>,
 }
 
-/// D V cos θ_l, and |l + v|².
-#[inline(always)]
-fn vectors_cos<S: Single>(l: [S; 3], v: [S; 3], alpha: S) -> (S, S) {
-    let a2 = alpha * alpha;
-    let h = [l[0] + v[0], l[1] + v[1], l[2] + v[2]];
-    let (s, c) = (across(h), h[2] * h[2]);
-    let (m, t) = (s + c, a2.mul_add(c, s));
-    let w = l[2].mul_add(projected(v, a2), v[2] * projected(l, a2));
-    // (m/t)² as one quotient with the rest; no α that is allowed makes t² underflow.
-    let value = a2 * lit(0.5 * FRAC_1_PI) * (m * m) * l[2] / (t * t * w);
-    (on_lit_side(l[2], v[2], value), m)
+/// What the roots of a pair of directions leave to the quotients.
+struct Rooted<S> {
+    /// Heights of light and view.
+    l: S,
+    v: S,
+    /// sqrt(α² + (1 − α²) z²) of both.
+    root_l: S,
+    root_v: S,
+    /// Numerator, and the square of what D divides by.
+    dividend: S,
+    t2: S,
+    /// |l − v|², and |l + v|.
+    difference2: S,
+    sum: S,
 }
 
-/// 1 − V·H of two directions with |l + v|² = m.
-#[inline(always)]
-fn rest<S: Single>(l: [S; 3], v: [S; 3], m: S) -> S {
-    let d = [l[0] - v[0], l[1] - v[1], l[2] - v[2]];
-    let d2 = d[0].mul_add(d[0], d[1].mul_add(d[1], d[2] * d[2]));
-    // |l − v|²/(4 (1 + V·H)) with V·H = sqrt(m)/2.
-    d2 / lit::<S>(2.0).mul_add(m.sqrt(), lit(4.0))
+impl<S: Lanes, L: Directions, V: Directions, A: Source, F: Source> Kernel<S>
+    for Directed<'_, L, V, A, F>
+{
+    type First = Rooted<S>;
+    /// The value with F = 1, and 1 − V·H.
+    type Second = [S; 2];
+
+    #[inline(always)]
+    fn first(&self, at: At) -> Rooted<S> {
+        let (l, v) = (self.light.at::<S>(at), self.view.at::<S>(at));
+        let alpha = self.alpha.at::<S>(at);
+        let a2 = alpha * alpha;
+        let rest = S::splat(1.0) - a2;
+        let h = [l[0] + v[0], l[1] + v[1], l[2] + v[2]];
+        let (s, c) = (h[0].mul_add(h[0], h[1] * h[1]), h[2] * h[2]);
+        let (m, t) = (s + c, a2.mul_add(c, s));
+        let d = [l[0] - v[0], l[1] - v[1], l[2] - v[2]];
+        let difference2 = d[0].mul_add(d[0], d[1].mul_add(d[1], d[2] * d[2]));
+        let up = l[2].at_least(S::splat(0.0));
+        Rooted {
+            l: up,
+            v: v[2],
+            // Of directions of length 1.
+            root_l: root(up, a2, rest),
+            root_v: root(v[2], a2, rest),
+            dividend: m * m * (up * (a2 * lit(0.5 * FRAC_1_PI))),
+            // No α that is allowed makes it underflow.
+            t2: t * t,
+            difference2,
+            sum: m.sqrt(),
+        }
+    }
+
+    #[inline(always)]
+    fn second(&self, _: At, first: Rooted<S>) -> [S; 2] {
+        let w = first.l.mul_add(first.root_v, first.v * first.root_l);
+        // |l − v|²/(4 (1 + V·H)) with V·H = |l + v|/2.
+        let below = S::splat(2.0).mul_add(first.sum, S::splat(4.0));
+        [
+            first.v.masks(first.dividend / (first.t2 * w)),
+            first.difference2 / below,
+        ]
+    }
+
+    #[inline(always)]
+    fn third(&self, at: At, [value, m]: [S; 2]) {
+        let value = match self.f0 {
+            None => value,
+            Some(f0) => value * schlick(f0.at(at), m),
+        };
+        self.out.put(at, value);
+    }
 }
 
 /// [`specular_vectors`] for arrays of structures: the same α and f0 for all.
-///
-/// Transposed in blocks that stay in the nearest cache.
 pub fn specular_vec3(
     isa: Isa,
     l: &[Vec3],
@@ -356,43 +422,40 @@ pub fn specular_vec3(
     f0: Option<f32>,
     out: &mut [f32],
 ) {
-    dispatch!(isa, vec3_body(l: &[Vec3], v: &[Vec3], alpha: f32, f0: Option<f32>, out: &mut [f32]))
+    dispatch_lanes!(isa, vec3_body(l: &[Vec3], v: &[Vec3], alpha: f32, f0: Option<f32>, out: &mut [f32]))
 }
 
-const BLOCK: usize = 256;
-
 #[inline(always)]
-fn vec3_body<S: Single>(l: &[Vec3], v: &[Vec3], alpha: f32, f0: Option<f32>, out: &mut [f32]) {
+fn vec3_body<V: Lanes, T: Lanes>(
+    l: &[Vec3],
+    v: &[Vec3],
+    alpha: f32,
+    f0: Option<f32>,
+    out: &mut [f32],
+) {
     let n = out.len().min(l.len()).min(v.len());
-    let (mut light, mut view) = ([[0.0f32; BLOCK]; 3], [[0.0f32; BLOCK]; 3]);
-    let blocks = l[..n]
-        .chunks(BLOCK)
-        .zip(v[..n].chunks(BLOCK))
-        .zip(out[..n].chunks_mut(BLOCK));
-    for ((l, v), out) in blocks {
-        transpose(l, &mut light);
-        transpose(v, &mut view);
-        let n = out.len();
-        let view = (
-            Each(&view[0][..n]),
-            Each(&view[1][..n]),
-            Each(&view[2][..n]),
-        );
-        let light = [&light[0][..n], &light[1][..n], &light[2][..n]];
-        match f0 {
-            None => vectors_perfect_loop::<S>(light, view, All(alpha), out),
-            Some(f0) => vectors_loop::<S>(light, view, All(alpha), All(f0), out),
-        }
-    }
-}
-
-#[inline(always)]
-fn transpose(vectors: &[Vec3], [x, y, z]: &mut [[f32; BLOCK]; 3]) {
-    let n = vectors.len().min(BLOCK);
-    let (vectors, x, y, z) = (&vectors[..n], &mut x[..n], &mut y[..n], &mut z[..n]);
-    for i in 0..n {
-        x[i] = vectors[i].x;
-        y[i] = vectors[i].y;
-        z[i] = vectors[i].z;
+    let (light, view) = (Triples::new(l, n), Triples::new(v, n));
+    let (alpha, out) = (All(alpha), Out::new(out, n));
+    match f0.map(All) {
+        None => run::<V, T>(
+            n,
+            &Directed {
+                light,
+                view,
+                alpha,
+                f0: None::<All>,
+                out,
+            },
+        ),
+        f0 => run::<V, T>(
+            n,
+            &Directed {
+                light,
+                view,
+                alpha,
+                f0,
+                out,
+            },
+        ),
     }
 }
