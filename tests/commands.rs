@@ -258,6 +258,21 @@ fn answers_are_judged() {
     );
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("-:2: "), "{}", stderr(&output));
+    // A bad line takes no good one with it.
+    let mixed = batch.replacen('\n', "\n{\"id\": 3}\n", 1);
+    let output = run_with(home.path(), &["judge", "--batch", "-"], &mixed);
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(json(&stdout(&output)), objects);
+    assert!(
+        stderr(&output).contains("-:2: not an answer"),
+        "{}",
+        stderr(&output)
+    );
+    assert!(
+        stderr(&output).contains("1 of 3 lines"),
+        "{}",
+        stderr(&output)
+    );
     assert_eq!(
         (&objects[1]["id"], &objects[1]["verdict"]),
         (&"b".into(), &"fail".into())

@@ -187,6 +187,10 @@ pub struct Judge {
     /// Id of the question, for example smith-g2/explain-3
     #[arg(required_unless_present_any = ["batch", "evaluate", "learn"])]
     pub item: Option<String>,
+    /// Ask the program named in the settings beside the built-in judge (`lobe doctor` says where
+    /// they are)
+    #[arg(long, conflicts_with_all = ["evaluate", "learn"])]
+    pub second_opinion: bool,
     /// Print JSON
     #[arg(long)]
     pub json: bool,

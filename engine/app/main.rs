@@ -7,11 +7,13 @@
 mod class;
 mod cli;
 mod commands;
+mod config;
 mod exit;
 mod fingerprints;
 mod lessons;
 mod output;
 mod plain;
+mod second;
 mod sheet;
 mod sitting;
 mod store;

@@ -83,8 +83,20 @@ impl Plain {
                     }
                 }
             }
+            self.wait_for_opinion()?;
             self.sitting.settle();
         }
+    }
+
+    /// A second opinion is read where it is given, so that a transcript has an order.
+    fn wait_for_opinion(&mut self) -> Result<(), Failure> {
+        if self.sitting.is_asking() {
+            if let Some(waiting) = &self.sitting.view().waiting {
+                output::line(&format!("\n{waiting} …"))?;
+            }
+            self.sitting.settle_opinions();
+        }
+        Ok(())
     }
 
     fn greet(&mut self) -> Result<(), Failure> {

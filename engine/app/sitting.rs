@@ -8,7 +8,9 @@ use tutor::record::Record;
 use tutor::session::{Effect, Event, Msg, Session, Start, progress};
 use tutor::view::View;
 
+use crate::config::SecondJudge;
 use crate::exit::Failure;
+use crate::second::{Asking, Said};
 use crate::store::{Log, Logs, Store, Writer};
 
 /// What is left for the screen to carry out.
@@ -40,6 +42,17 @@ pub struct Sitting {
     pub resumed: bool,
     /// What the learner should know before the lesson starts.
     pub notices: Vec<Notice>,
+    /// Who gives second opinions.
+    judge: Option<SecondJudge>,
+    /// Opinions that are on their way, oldest first.
+    asked: Vec<Asked>,
+}
+
+/// A second opinion on its way.
+struct Asked {
+    item: String,
+    attempt: u32,
+    asking: Asking,
 }
 
 /// Something to say before the lesson starts.
@@ -117,6 +130,8 @@ impl Sitting {
             last_event: Instant::now(),
             resumed: true,
             notices,
+            judge: None,
+            asked: Vec::new(),
         }
     }
 
@@ -146,7 +161,71 @@ impl Sitting {
             last_event: Instant::now(),
             resumed: false,
             notices,
+            judge: None,
+            asked: Vec::new(),
         }
+    }
+
+    /// The same, with second opinions on explanations where a judge for them is named.
+    #[must_use]
+    pub fn with_second_opinions(mut self, judge: Option<SecondJudge>) -> Self {
+        if judge.is_some() {
+            self.session = self.session.with_second_opinions();
+        }
+        self.judge = judge;
+        self
+    }
+
+    fn consult(&mut self, item: String, attempt: u32, text: &str) {
+        if let (Some(judge), Some(explain)) = (&self.judge, self.session.lesson().explain(&item)) {
+            let asking = Asking::start(judge, &explain.rubric, text);
+            self.asked.push(Asked {
+                item,
+                attempt,
+                asking,
+            });
+        }
+    }
+
+    /// Passes on the opinions that have come. True where there was one.
+    fn collect_opinions(&mut self) -> bool {
+        let mut came = Vec::new();
+        self.asked.retain(|asked| match asked.asking.answer() {
+            Some(said) => {
+                came.push((asked.item.clone(), asked.attempt, said));
+                false
+            }
+            None => true,
+        });
+        let any = !came.is_empty();
+        for (item, attempt, said) in came {
+            self.pass_on_opinion(item, attempt, said);
+        }
+        any
+    }
+
+    fn pass_on_opinion(&mut self, item: String, attempt: u32, said: Said) {
+        let by = self.judge.as_ref().map(SecondJudge::name);
+        // It asks for nothing but to be saved.
+        let _ = self.tell(Msg::SecondOpinion {
+            item,
+            attempt,
+            by: by.unwrap_or_default(),
+            said,
+        });
+    }
+
+    /// Waits for every opinion that is on its way.
+    pub fn settle_opinions(&mut self) {
+        for asked in std::mem::take(&mut self.asked) {
+            let said = asked.asking.wait();
+            self.pass_on_opinion(asked.item, asked.attempt, said);
+        }
+    }
+
+    /// Whether an opinion is on its way.
+    pub fn is_asking(&self) -> bool {
+        !self.asked.is_empty()
     }
 
     /// What is on the screen.
@@ -178,7 +257,19 @@ impl Sitting {
                 lesson,
                 id: picture,
             }),
-            Effect::Consult { .. } | Effect::StopConsulting => None,
+            Effect::Consult {
+                item,
+                attempt,
+                text,
+            } => {
+                self.consult(item, attempt, &text);
+                None
+            }
+            Effect::StopConsulting => {
+                // The one waited for is the one asked last.
+                self.asked.pop();
+                None
+            }
             Effect::Quit => Some(Request::Leave),
         }
     }
@@ -192,12 +283,13 @@ impl Sitting {
 
     /// Passes on what became of the log. True where the screen changed.
     pub fn collect(&mut self) -> bool {
+        let opinions = self.collect_opinions();
         match self.writer.news() {
             Some(news) => {
                 self.pass_on(news);
                 true
             }
-            None => false,
+            None => opinions,
         }
     }
 
@@ -225,7 +317,11 @@ impl Sitting {
     }
 
     /// Saves what is left and ends.
-    pub fn close(self) -> Result<(), String> {
+    pub fn close(mut self) -> Result<(), String> {
+        for asked in std::mem::take(&mut self.asked) {
+            let said = Err("the learner left before it came".to_owned());
+            self.pass_on_opinion(asked.item, asked.attempt, said);
+        }
         self.writer.close()
     }
 }

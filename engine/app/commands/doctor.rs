@@ -2,10 +2,12 @@
 
 use std::env;
 use std::io::{self, IsTerminal as _};
+use std::path::Path;
 
 use serde::Serialize;
 
 use crate::cli::{Folders, Json};
+use crate::config::{self, Config};
 use crate::exit::{Done, Failure};
 use crate::lessons::Shelf;
 use crate::output;
@@ -23,6 +25,9 @@ struct Report {
     lessons_broken: Vec<String>,
     progress: String,
     progress_unwritable: Option<String>,
+    settings: Option<String>,
+    settings_broken: Option<String>,
+    second_opinions: Option<Vec<String>>,
 }
 
 #[derive(Serialize)]
@@ -36,6 +41,11 @@ pub fn run(folders: &Folders, args: Json) -> Result<Done, Failure> {
     let shelf = Shelf::open(folders.lessons.as_deref())?;
     let store = super::store(folders)?;
     let adapter = renders::gpu_adapter();
+    let (settings, settings_broken) = match config::read() {
+        Ok(settings) => (settings, None),
+        Err(Failure::Unusable(why)) => (Config::default(), Some(why)),
+        Err(other) => return Err(other),
+    };
     let report = Report {
         version: env!("CARGO_PKG_VERSION"),
         terminal: terminal(),
@@ -51,6 +61,9 @@ pub fn run(folders: &Folders, args: Json) -> Result<Done, Failure> {
         lessons_broken: shelf.broken().map(|file| file.why_broken()).collect(),
         progress: store.folder.display().to_string(),
         progress_unwritable: store.try_out().err(),
+        settings: config::path().map(|path| path.display().to_string()),
+        settings_broken,
+        second_opinions: settings.judge.map(|judge| judge.command),
     };
     if args.json {
         output::json(&report)?
@@ -58,7 +71,9 @@ pub fn run(folders: &Folders, args: Json) -> Result<Done, Failure> {
         human(&report)?
     }
     Ok(Done::found(
-        !report.lessons_broken.is_empty() || report.progress_unwritable.is_some(),
+        !report.lessons_broken.is_empty()
+            || report.progress_unwritable.is_some()
+            || report.settings_broken.is_some(),
     ))
 }
 
@@ -129,7 +144,7 @@ fn human(report: &Report) -> Result<(), Failure> {
         say(false, "lessons", broken)?;
     }
     match &report.progress_unwritable {
-        None => say(true, "answers", &report.progress),
+        None => say(true, "answers", &report.progress)?,
         Some(why) => say(
             false,
             "answers",
@@ -137,6 +152,30 @@ fn human(report: &Report) -> Result<(), Failure> {
                 "{}: {why}; name another folder with --progress",
                 report.progress
             ),
+        )?,
+    }
+    match (&report.settings_broken, &report.settings) {
+        (Some(why), _) => say(false, "settings", why)?,
+        (None, Some(path)) => {
+            let there = if Path::new(path).exists() {
+                ""
+            } else {
+                " (not there, and not needed)"
+            };
+            say(true, "settings", &format!("{path}{there}"))?;
+        }
+        (None, None) => {}
+    }
+    match &report.second_opinions {
+        Some(command) => say(
+            true,
+            "second",
+            &format!("opinions by {}", command.join(" ")),
+        ),
+        None => say(
+            true,
+            "second",
+            "opinions: off ([judge] command turns them on)",
         ),
     }
 }

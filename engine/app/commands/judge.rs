@@ -1,16 +1,20 @@
 //! `lobe judge`: what the judge hears in an explanation.
 
+use std::collections::BTreeMap;
 use std::io::{self, Read as _};
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use tutor::judge::{Judgement, Verdict};
 use tutor::lesson::Explain;
+use tutor::opinion;
 
 use crate::cli::{Folders, Judge};
+use crate::config::{self, SecondJudge};
 use crate::exit::{Done, Failure};
 use crate::lessons::{Shelf, unknown};
 use crate::output;
+use crate::second::Asking;
 
 #[derive(Serialize)]
 struct Judged<'a> {
@@ -22,6 +26,8 @@ struct Judged<'a> {
     misconceptions: &'a [String],
     unsure: &'a [String],
     why: Vec<Why<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    second: Option<&'a Second>,
 }
 
 #[derive(Serialize)]
@@ -45,13 +51,26 @@ pub fn run(folders: &Folders, args: &Judge) -> Result<Done, Failure> {
     if let Some(path) = &args.learn {
         return super::learn_phrases::run(&shelf, path, args);
     }
+    let judge = match args.second_opinion {
+        true => Some(second_judge()?),
+        false => None,
+    };
     match (&args.item, &args.batch) {
-        (_, Some(path)) => batch(&shelf, path),
-        (Some(item), None) => one(&shelf, item, args.json),
+        (_, Some(path)) => batch(&shelf, path, judge.as_ref()),
+        (Some(item), None) => one(&shelf, item, judge.as_ref(), args.json),
         (None, None) => Err(Failure::unusable(
             "name a question, such as smith-g2/explain-3",
         )),
     }
+}
+
+fn second_judge() -> Result<SecondJudge, Failure> {
+    config::read()?.judge.ok_or_else(|| {
+        let place = config::path().map_or_else(String::new, |it| it.display().to_string());
+        Failure::unusable(format!(
+            "nobody is named for second opinions: write [judge] command = [\"program\"] into {place}"
+        ))
+    })
 }
 
 fn find<'a>(shelf: &'a Shelf, item: &str) -> Result<&'a Explain, Failure> {
@@ -72,7 +91,12 @@ fn find<'a>(shelf: &'a Shelf, item: &str) -> Result<&'a Explain, Failure> {
         })
 }
 
-fn one(shelf: &Shelf, item: &str, as_json: bool) -> Result<Done, Failure> {
+fn one(
+    shelf: &Shelf,
+    item: &str,
+    judge: Option<&SecondJudge>,
+    as_json: bool,
+) -> Result<Done, Failure> {
     let explain = find(shelf, item)?;
     let mut bytes = Vec::new();
     io::stdin()
@@ -84,47 +108,154 @@ fn one(shelf: &Shelf, item: &str, as_json: bool) -> Result<Done, Failure> {
             ))
         })?;
     let text = String::from_utf8_lossy(&bytes);
-    let judgement = explain.judge.judge(&text);
+    let (judgement, second) = judged(explain, &text, judge);
     if as_json {
-        output::json(&json(None, item, &judgement))?;
+        output::json(&json(None, item, &judgement, second.as_ref()))?;
     } else {
         human(explain, &judgement)?;
+        if let Some(second) = &second {
+            second.say()?;
+        }
     }
     Ok(Done::Fine)
 }
 
-fn batch(shelf: &Shelf, path: &Path) -> Result<Done, Failure> {
-    let mut out = String::new();
+/// What is heard, by the built-in judge or by both together.
+fn judged(
+    explain: &Explain,
+    text: &str,
+    judge: Option<&SecondJudge>,
+) -> (Judgement, Option<Second>) {
+    let own = explain.judge.judge(text);
+    let Some(judge) = judge else {
+        return (own, None);
+    };
+    let rubric = &explain.rubric;
+    let said = match opinion::speaks_to_the_judge(rubric, text) {
+        true => Err("the answer speaks to the judge".to_owned()),
+        false => Asking::start(judge, rubric, text).wait(),
+    };
+    let checked = said.and_then(|findings| opinion::verify(rubric, text, &findings));
+    let by = judge.name();
+    let checked = match checked {
+        Ok(checked) => checked,
+        Err(problem) => {
+            let second = Second {
+                by,
+                result: "unusable",
+                problem: Some(problem),
+                ..Second::default()
+            };
+            return (own, Some(second));
+        }
+    };
+    let both = opinion::combine(rubric, &own.met, &own.misconceptions, &own.unsure, &checked);
+    let second = Second {
+        by,
+        result: both.result(),
+        problem: checked.left_out,
+        own_verdict: Some(both.own_verdict.as_str()),
+        says: checked
+            .says
+            .into_iter()
+            .map(|(id, says)| (id, says.as_str()))
+            .collect(),
+        disputed: both.disputed,
+        settled: both.settled,
+    };
+    let mut why = own.why;
+    for more in checked.why {
+        if second.settled.contains(&more.id) {
+            why.retain(|it| it.id != more.id);
+            why.push(more);
+        }
+    }
+    let both = Judgement {
+        verdict: both.verdict,
+        met: both.met,
+        misconceptions: both.misconceptions,
+        unsure: both.unsure,
+        why,
+    };
+    (both, Some(second))
+}
+
+/// A second opinion, and what it came to.
+#[derive(Default, Serialize)]
+struct Second {
+    by: String,
+    /// `agrees`, `settles`, `disputes` or `unusable`.
+    result: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    problem: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    own_verdict: Option<&'static str>,
+    says: BTreeMap<String, &'static str>,
+    disputed: Vec<String>,
+    settled: Vec<String>,
+}
+
+impl Second {
+    fn say(&self) -> Result<(), Failure> {
+        output::line(&format!("second opinion by {}: {}", self.by, self.result))?;
+        if let Some(problem) = &self.problem {
+            output::line(&format!("  ! {problem}"))?;
+        }
+        for (what, ids) in [("settled", &self.settled), ("disputed", &self.disputed)] {
+            if !ids.is_empty() {
+                output::line(&format!("  {what}: {}", ids.join(", ")))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Judges every line; one that cannot be read is named, and the others are judged all the same.
+fn batch(shelf: &Shelf, path: &Path, judge: Option<&SecondJudge>) -> Result<Done, Failure> {
+    let (mut good, mut bad) = (0, 0);
     for (index, line) in super::lines_of(path)?.iter().enumerate() {
         if line.trim().is_empty() {
             continue;
         }
-        let answer: Answer = serde_json::from_str(line).map_err(|error| {
-            Failure::unusable(format!(
-                "{}:{}: not an answer ({error}): one object a line with id, item and text",
-                path.display(),
-                index + 1
-            ))
-        })?;
-        let explain = find(shelf, &answer.item).map_err(|failure| match failure {
-            Failure::Unusable(why) => {
-                Failure::unusable(format!("{}:{}: {why}", path.display(), index + 1))
+        match judged_line(shelf, line, judge) {
+            Ok(line) => {
+                good += 1;
+                output::line(&line)?;
             }
-            other => other,
-        })?;
-        let judgement = explain.judge.judge(&answer.text);
-        let judged = json(Some(&answer.id), &answer.item, &judgement);
-        out.push_str(&serde_json::to_string(&judged).unwrap_or_default());
-        out.push('\n');
+            Err(Failure::Unusable(why)) => {
+                bad += 1;
+                output::complain(&format!("{}:{}: {why}", path.display(), index + 1));
+            }
+            Err(other) => return Err(other),
+        }
     }
-    output::text(&out)?;
-    Ok(Done::Fine)
+    match bad {
+        0 => Ok(Done::Fine),
+        _ => Err(Failure::unusable(format!(
+            "{bad} of {} lines of {} could not be judged: mend or remove them",
+            good + bad,
+            path.display()
+        ))),
+    }
+}
+
+fn judged_line(shelf: &Shelf, line: &str, judge: Option<&SecondJudge>) -> Result<String, Failure> {
+    let answer: Answer = serde_json::from_str(line).map_err(|error| {
+        Failure::unusable(format!(
+            "not an answer ({error}): one object a line with id, item and text"
+        ))
+    })?;
+    let explain = find(shelf, &answer.item)?;
+    let (judgement, second) = judged(explain, &answer.text, judge);
+    let judged = json(Some(&answer.id), &answer.item, &judgement, second.as_ref());
+    Ok(serde_json::to_string(&judged).unwrap_or_default())
 }
 
 fn json<'a>(
     id: Option<&'a serde_json::Value>,
     item: &'a str,
     judgement: &'a Judgement,
+    second: Option<&'a Second>,
 ) -> Judged<'a> {
     Judged {
         id,
@@ -141,6 +272,7 @@ fn json<'a>(
                 quote: &why.quote,
             })
             .collect(),
+        second,
     }
 }
 

@@ -7,7 +7,7 @@ use crate::cli::{Folders, Json, Learn};
 use crate::exit::{Done, Failure};
 use crate::lessons::Shelf;
 use crate::sitting::{Sitting, Wish};
-use crate::{plain, tui};
+use crate::{config, plain, tui};
 
 /// The list of lessons on the screen; without a screen, the list as text.
 pub fn tutor(folders: &Folders) -> Result<Done, Failure> {
@@ -16,7 +16,8 @@ pub fn tutor(folders: &Folders) -> Result<Done, Failure> {
     }
     // What is broken is said on the screen, not above it.
     let shelf = Shelf::open(folders.lessons.as_deref())?;
-    tui::run(&shelf, &super::store(folders)?, tui::Open::List)
+    let judge = config::read()?.judge;
+    tui::run(&shelf, &super::store(folders)?, judge, tui::Open::List)
 }
 
 /// One lesson.
@@ -29,10 +30,12 @@ pub fn lesson(folders: &Folders, args: &Learn) -> Result<Done, Failure> {
         new: args.new,
         seed: args.seed,
     };
+    let judge = config::read()?.judge;
     if args.plain || !has_screen() {
-        plain::run(Sitting::open(lesson, &store, wish)?, &store)
+        let sitting = Sitting::open(lesson, &store, wish)?;
+        plain::run(sitting.with_second_opinions(judge), &store)
     } else {
-        tui::run(&shelf, &store, tui::Open::Lesson(lesson, wish))
+        tui::run(&shelf, &store, judge, tui::Open::Lesson(lesson, wish))
     }
 }
 

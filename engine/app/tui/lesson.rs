@@ -14,6 +14,9 @@ use crate::sitting::{Request, Sitting};
 /// A pause in typing after which the draft is saved.
 const DRAFT_AFTER: Duration = Duration::from_millis(1500);
 
+/// How fast the sign turns while something is waited for.
+const SPINNING: Duration = Duration::from_millis(120);
+
 /// What the loop does next.
 #[must_use]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,6 +47,8 @@ pub struct LessonScreen {
     palette: Palette,
     /// When the text was last changed, where that is not saved yet.
     typed: Option<Instant>,
+    /// When waiting began.
+    asked_at: Option<Instant>,
 }
 
 impl LessonScreen {
@@ -69,6 +74,7 @@ impl LessonScreen {
             laid_out_for: 80,
             palette,
             typed: None,
+            asked_at: None,
             sitting,
             field,
             shown,
@@ -104,8 +110,20 @@ impl LessonScreen {
         if self.sitting.is_saving() {
             return Some(SAVING);
         }
-        self.typed
-            .map(|when| DRAFT_AFTER.saturating_sub(when.elapsed()))
+        let draft = self
+            .typed
+            .map(|when| DRAFT_AFTER.saturating_sub(when.elapsed()));
+        let asking = self.sitting.is_asking().then_some(SPINNING);
+        draft.into_iter().chain(asking).min()
+    }
+
+    /// What is waited for, and the sign that something is under way.
+    pub fn waiting(&self) -> Option<(&'static str, &str)> {
+        const SIGNS: [&str; 4] = ["◐", "◓", "◑", "◒"];
+        let what = self.shown.waiting.as_deref()?;
+        let turns =
+            self.asked_at.map_or(0, |when| when.elapsed().as_millis()) / SPINNING.as_millis();
+        Some((SIGNS[(turns % 4) as usize], what))
     }
 
     /// Does what waits. True where the screen changed.
@@ -117,7 +135,7 @@ impl LessonScreen {
         if changed {
             self.refresh();
         }
-        changed
+        changed || self.shown.waiting.is_some()
     }
 
     /// What an action of the learner does.
@@ -321,6 +339,9 @@ impl LessonScreen {
         let before = std::mem::replace(&mut self.shown, view.clone());
         let view = &self.shown;
         let other_screen = view.key != before.key;
+        if view.waiting.is_some() != before.waiting.is_some() {
+            self.asked_at = view.waiting.as_ref().map(|_| Instant::now());
+        }
         if other_screen || !same_input(&view.input, &before.input) {
             self.field = Field::of(&view.input);
             self.focus = self.field.focus();

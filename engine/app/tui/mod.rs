@@ -29,6 +29,7 @@ use self::keys::{Action, Focus};
 use self::lesson::{Flow, LessonScreen};
 use self::picker::{Chosen, Picker};
 use self::pictures::Pictures;
+use crate::config::SecondJudge;
 use crate::exit::{Done, Failure, plain_reason};
 use crate::lessons::Shelf;
 use crate::sitting::{Sitting, Wish};
@@ -46,6 +47,8 @@ enum Screen {
 struct App<'a> {
     shelf: &'a Shelf,
     store: &'a Store,
+    /// Who gives second opinions.
+    judge: Option<SecondJudge>,
     screen: Screen,
     /// How far the help is scrolled, while it lies over the screen.
     help: Option<usize>,
@@ -62,12 +65,18 @@ pub enum Open<'a> {
 }
 
 /// Runs the tutor until the learner leaves.
-pub fn run(shelf: &Shelf, store: &Store, open: Open) -> Result<Done, Failure> {
+pub fn run(
+    shelf: &Shelf,
+    store: &Store,
+    judge: Option<SecondJudge>,
+    open: Open,
+) -> Result<Done, Failure> {
     let palette = Palette::from_env();
     let (screen, from_list) = match open {
         Open::List => (Screen::Picker(Picker::new(shelf, store)), true),
         Open::Lesson(lesson, wish) => {
             let sitting = Sitting::open(lesson, store, wish)?;
+            let sitting = sitting.with_second_opinions(judge.clone());
             (
                 Screen::Lesson(Box::new(LessonScreen::new(sitting, palette))),
                 false,
@@ -77,6 +86,7 @@ pub fn run(shelf: &Shelf, store: &Store, open: Open) -> Result<Done, Failure> {
     let mut app = App {
         shelf,
         store,
+        judge,
         screen,
         help: None,
         pictures: Pictures::new(palette.has_colours()),
@@ -189,6 +199,7 @@ impl App<'_> {
                 Chosen::Leave => Ok(Flow::Leave),
                 Chosen::Lesson { lesson } => {
                     let sitting = Sitting::open(&lesson, self.store, Wish::default())?;
+                    let sitting = sitting.with_second_opinions(self.judge.clone());
                     self.screen =
                         Screen::Lesson(Box::new(LessonScreen::new(sitting, self.palette)));
                     Ok(Flow::Stay)

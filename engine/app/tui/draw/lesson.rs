@@ -230,6 +230,9 @@ fn sidebar(frame: &mut Frame, area: Rect, view: &View, palette: Palette) {
 /// Lines between page and field: what was said about the last key, what cannot be saved.
 fn notes(screen: &LessonScreen, width: usize) -> Vec<(Tone, String)> {
     let mut notes: Vec<(Tone, String)> = Vec::new();
+    if let Some((sign, what)) = screen.waiting() {
+        notes.push((Tone::Info, format!("{sign} {what} …")));
+    }
     let mut say = |tone: Tone, says: &str| {
         let lines = text::wrap_plain(says, width, &format!("{} ", text::symbol(tone)), "  ");
         notes.extend(lines.into_iter().map(|line| (tone, line)));
