@@ -231,7 +231,12 @@ fn criteria_named(checker: &mut Checker<'_>, explain: &crate::lesson::Explain) {
         .zip(&explain.misconception_places)
     {
         let unless = &misconception.unless;
-        refer(unless, &expectations, "expectation", places.of("unless"));
+        let all: Vec<&str> = expectations
+            .iter()
+            .chain(&misconceptions)
+            .copied()
+            .collect();
+        refer(unless, &all, "criterion", places.of("unless"));
     }
     for (example, places) in rubric.example.iter().zip(&explain.example_places) {
         if let Some(met) = &example.met {

@@ -475,7 +475,13 @@ fn replied(
     Event::Replied {
         item: explain.rubric.item.clone(),
         attempt,
-        asked: plain(&show_dialogue::question(lesson, explain, tried, asked)),
+        asked: plain(&show_dialogue::question(
+            lesson,
+            explain,
+            tried,
+            asked,
+            tried.turns.is_empty(),
+        )),
         about: reply.about,
         rung: reply.rung,
         text,

@@ -7,7 +7,7 @@
 use super::event::Quote;
 use super::question::{Heard, Try};
 use crate::judge::Verdict;
-use crate::rubric::{Criterion, Rubric};
+use crate::rubric::{Criterion, Misconception, Rubric};
 use serde::{Deserialize, Serialize};
 
 /// So many criteria of one answer are asked about, at most.
@@ -130,7 +130,7 @@ fn agenda<'r>(rubric: &'r Rubric, heard: &Heard) -> Vec<Criterion<'r>> {
 fn wrong<'a>(rubric: &Rubric, heard: &'a Heard) -> Option<&'a String> {
     let blocks = |id: &&String| {
         let known = rubric.misconception.iter().find(|m| m.id == **id);
-        known.is_some_and(|m| m.blocking && m.unless.is_empty())
+        known.is_some_and(|m| m.blocking && !is_excusable(rubric, m))
     };
     heard.misconceptions.iter().find(blocks)
 }
@@ -139,9 +139,15 @@ fn wrong<'a>(rubric: &Rubric, heard: &'a Heard) -> Option<&'a String> {
 pub(super) fn incomplete<'a>(rubric: &Rubric, heard: &'a Heard) -> Option<&'a String> {
     let excusable = |id: &&String| {
         let known = rubric.misconception.iter().find(|m| m.id == **id);
-        known.is_some_and(|m| m.blocking && !m.unless.is_empty())
+        known.is_some_and(|m| m.blocking && is_excusable(rubric, m))
     };
     heard.misconceptions.iter().find(excusable)
+}
+
+/// Whether more said could make the same words harmless.
+fn is_excusable(rubric: &Rubric, misconception: &Misconception) -> bool {
+    let mut expectations = rubric.expectation.iter();
+    expectations.any(|e| misconception.unless.contains(&e.id))
 }
 
 fn is_settled(criterion: &Criterion<'_>, heard: &Heard) -> bool {

@@ -116,7 +116,8 @@ fn combine(rubric: &Rubric, before: &Heard, told: &[String], readings: &[Reading
     }
     for misconception in &rubric.misconception {
         let id = &misconception.id;
-        if misconception.unless.iter().any(|other| met.contains(other)) {
+        let instead = |other: &String| met.contains(other) || any(&|it| it.errs(other));
+        if misconception.unless.iter().any(instead) {
             continue;
         }
         let said = before.misconceptions.contains(id) && !any(&|it| it.denied.contains(id));

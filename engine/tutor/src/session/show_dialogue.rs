@@ -71,6 +71,7 @@ pub(super) fn question(
     explain: &Explain,
     tried: &Try,
     asked: &Asked,
+    is_first: bool,
 ) -> Vec<Inline> {
     let Some(criterion) = explain.rubric.criterion(&asked.about) else {
         return Vec::new();
@@ -78,7 +79,7 @@ pub(super) fn question(
     let inline = |words: &str| lesson.inline(words, &Values::new());
     match asked.rung {
         Rung::Ask => {
-            let (mut says, fits) = lead(explain, tried, &criterion);
+            let (mut says, fits) = lead(explain, tried, &criterion, is_first);
             match criterion.ask {
                 Some(ask) => says.extend(inline(ask)),
                 None if fits => says.push(text(
@@ -105,7 +106,12 @@ fn blank(lesson: &Lesson, prompt: &str) -> Vec<Inline> {
 }
 
 /// The learner's own words that the question starts from, and whether they are about it.
-fn lead(explain: &Explain, tried: &Try, criterion: &Criterion<'_>) -> (Vec<Inline>, bool) {
+fn lead(
+    explain: &Explain,
+    tried: &Try,
+    criterion: &Criterion<'_>,
+    is_first: bool,
+) -> (Vec<Inline>, bool) {
     let opened = tried.opened();
     let said = |id: &str| {
         tried
@@ -126,7 +132,7 @@ fn lead(explain: &Explain, tried: &Try, criterion: &Criterion<'_>) -> (Vec<Inlin
         .filter(|e| opened.met.contains(&e.id))
         .filter_map(|e| said(&e.id));
     match met.next_back() {
-        Some(words) if tried.turns.is_empty() => (you_say(words, ", and that is right. "), false),
+        Some(words) if is_first => (you_say(words, ", and that is right. "), false),
         _ => (Vec::new(), false),
     }
 }
@@ -170,7 +176,7 @@ fn question_block(
     if replied && asked.rung != Rung::Ask {
         says.push(text("I do not hear it yet. "));
     }
-    says.extend(question(lesson, explain, tried, asked));
+    says.extend(question(lesson, explain, tried, asked, before == 0));
     verdict(Tone::Info, title, says)
 }
 
