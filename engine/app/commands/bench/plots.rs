@@ -265,15 +265,16 @@ fn spec(picture: &Picture, rows: &[&Row], machine: &str) -> PlotSpec {
     }
     let mut shapes = picture.shapes.to_vec();
     shapes.retain(|(shape, _)| dots.iter().any(|dot| dot.shape == *shape));
-    let floor = if rows.iter().any(|row| row.max_ulp < least) {
-        format!("; {least} or less at the bottom")
-    } else {
-        String::new()
+    // Short where there is more to say: the axis is no longer than the picture is high.
+    let y_label = match rows.iter().any(|row| row.max_ulp < least) {
+        true if relative => format!("worst error, relative; bottom: {least:e} or less"),
+        true => format!("worst error, ulp of f32; bottom: {least} or less"),
+        false => format!("worst error found, {unit}"),
     };
     PlotSpec {
         title: picture.title.to_owned(),
         x_label: format!("nanoseconds for one {}, {machine}", picture.one),
-        y_label: format!("worst error found, {unit}{floor}"),
+        y_label,
         x_log: true,
         y_log: true,
         series,
@@ -363,7 +364,7 @@ mod tests {
             (4, "quadrature"),
             (4, "16 samples"),
             (4, "Pareto front"),
-            (4, "relative; 0.00000001 or less at the bottom"),
+            (4, "relative; bottom: 1e-8 or less"),
         ] {
             assert!(svg(index).contains(label), "{label}");
         }
