@@ -80,19 +80,19 @@ fn drawn(
     options: &Options,
 ) -> Result<(f64, Raw), renders::Error> {
     let begin = Instant::now();
-    let mut run = || {
+    let run = || {
         let start = Instant::now();
         raw(fingerprint, options).map(|picture| (start.elapsed(), picture))
     };
     // The first may load a driver: there is always a second.
-    let (mut best, mut picture) = run()?;
-    loop {
-        let (time, again) = run()?;
-        (best, picture) = (best.min(time), again);
+    let mut best = run()?.0;
+    let picture = loop {
+        let (time, picture) = run()?;
+        best = best.min(time);
         if begin.elapsed() >= effort.time {
-            break;
+            break picture;
         }
-    }
+    };
     let best = best.as_secs_f64();
     Ok((best * 1e9, picture))
 }
