@@ -234,6 +234,7 @@ impl<S: Lanes> Kernel<S> for Quotients<'_> {
     /// Dividends and divisors.
     type First = [(S, S); 3];
     type Second = [S; 3];
+    type Third = ();
 
     #[inline(always)]
     fn first(&self, at: At) -> [(S, S); 3] {

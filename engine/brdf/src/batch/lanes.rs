@@ -208,40 +208,55 @@ impl<'a> Out<'a> {
     }
 }
 
-/// What is done with each register full of numbers, in three stages: what one leaves to the next
-/// is best what takes long, square roots and quotients.
+/// What is done with each register full of numbers, in stages: what one leaves to the next is
+/// best what takes long, square roots and quotients.
 pub(crate) trait Kernel<S: Lanes> {
     type First;
     type Second;
+    type Third;
     fn first(&self, at: At) -> Self::First;
     fn second(&self, at: At, first: Self::First) -> Self::Second;
-    fn third(&self, at: At, second: Self::Second);
+    fn third(&self, at: At, second: Self::Second) -> Self::Third;
+    /// Most have done all in three.
+    #[inline(always)]
+    fn fourth(&self, _: At, _: Self::Third) {}
 }
 
 /// Runs a kernel over `n` numbers, in registers `V` and the rest one by one as `T`: beside the
-/// last stage of one register the second of the next and the first of the one after that.
+/// last stage of one register the third of the next, the second of the one after that and the
+/// first of one more.
 #[inline(always)]
 pub(crate) fn run<V: Lanes, T: Lanes>(n: usize, kernel: &(impl Kernel<V> + Kernel<T>)) {
-    let mut done = 0;
-    if V::COUNT > 1 && n >= 2 * V::COUNT {
-        let mut last = At(0);
-        let mut second = Kernel::<V>::second(kernel, last, Kernel::<V>::first(kernel, last));
-        let mut next = At(V::COUNT);
-        let mut first = Kernel::<V>::first(kernel, next);
-        done = 2 * V::COUNT;
-        while n - done >= V::COUNT {
-            Kernel::<V>::third(kernel, last, second);
-            second = Kernel::<V>::second(kernel, next, first);
-            (last, next) = (next, At(done));
-            first = Kernel::<V>::first(kernel, next);
-            done += V::COUNT;
-        }
-        Kernel::<V>::third(kernel, last, second);
-        Kernel::<V>::third(kernel, next, Kernel::<V>::second(kernel, next, first));
-    }
-    for i in done..n {
+    let rest = run_registers::<V>(n, kernel);
+    for i in rest..n {
         let at = At(i);
         let first = Kernel::<T>::first(kernel, at);
-        Kernel::<T>::third(kernel, at, Kernel::<T>::second(kernel, at, first));
+        let second = Kernel::<T>::second(kernel, at, first);
+        Kernel::<T>::fourth(kernel, at, Kernel::<T>::third(kernel, at, second));
     }
+}
+
+/// How many of `n` numbers are done.
+#[inline(always)]
+fn run_registers<V: Lanes>(n: usize, kernel: &impl Kernel<V>) -> usize {
+    if V::COUNT == 1 || n < 3 * V::COUNT {
+        return 0;
+    }
+    let (mut a, mut b, mut c) = (At(0), At(V::COUNT), At(2 * V::COUNT));
+    let mut third = kernel.third(a, kernel.second(a, kernel.first(a)));
+    let mut second = kernel.second(b, kernel.first(b));
+    let mut first = kernel.first(c);
+    let mut done = 3 * V::COUNT;
+    while n - done >= V::COUNT {
+        kernel.fourth(a, third);
+        third = kernel.third(b, second);
+        second = kernel.second(c, first);
+        (a, b, c) = (b, c, At(done));
+        first = kernel.first(c);
+        done += V::COUNT;
+    }
+    kernel.fourth(a, third);
+    kernel.fourth(b, kernel.third(b, second));
+    kernel.fourth(c, kernel.third(c, kernel.second(c, first)));
+    done
 }

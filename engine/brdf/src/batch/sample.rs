@@ -52,59 +52,59 @@ struct Drawing<'a> {
 }
 
 impl<S: Lanes> Kernel<S> for Drawing<'_> {
-    /// Sine around the cap's pole, sine and cosine around it, height of the half vector.
+    /// Sine of the angle from the cap's pole, sine and cosine of that around it, and how far up
+    /// the half vector reaches.
     type First = [S; 4];
-    /// The light's height, its length where the surface is stretched, and the quotient of the
-    /// density.
-    type Second = [S; 3];
+    /// The half vector, and how long it is where the surface is stretched over how long it is on
+    /// the surface, squared.
+    type Second = [S; 4];
+    /// The light's height, the root of the weight, and the density.
+    type Third = [S; 3];
 
     #[inline(always)]
     fn first(&self, at: At) -> [S; 4] {
         let cap = &self.cap;
         let (u0, u1) = (self.u[0].at::<S>(at), self.u[1].at::<S>(at));
-        // How far below the pole of the cap, and how far above its rim, without differences.
-        let (rise, depth) = (S::splat(1.0) - u1, S::splat(cap.depth));
-        let sin2 = (depth * u1) * rise.mul_add(depth, S::splat(cap.rim));
+        // How far below the pole of the cap, and how far above the lowest point of its rim,
+        // without differences.
+        let depth = S::splat(cap.depth);
+        let up = (S::splat(1.0) - u1).mul_add(depth, S::splat(cap.lowest));
+        let sin2 = (depth * u1) * (up + S::splat(cap.under));
         let (sin_phi, cos_phi) = sin_cos_turn(u0);
-        let up = rise.mul_add(depth, S::splat(cap.lowest));
         [sin2.sqrt(), sin_phi, cos_phi, up]
     }
 
     #[inline(always)]
-    fn second(&self, at: At, [sin, sin_phi, cos_phi, up]: [S; 4]) -> [S; 3] {
+    fn second(&self, _: At, [sin, sin_phi, cos_phi, up]: [S; 4]) -> [S; 4] {
         let cap = &self.cap;
         // The half vector where the surface is stretched to α = 1, without its length: the sum
         // of two directions.
-        let h = [
-            sin.mul_add(cos_phi, S::splat(cap.view[0])),
-            sin.mul_add(sin_phi, S::splat(cap.view[1])),
-            up,
-        ];
-        let (across, up) = (h[0].mul_add(h[0], h[1] * h[1]), h[2] * h[2]);
+        let x = sin.mul_add(cos_phi, S::splat(cap.view[0]));
+        let y = sin.mul_add(sin_phi, S::splat(cap.view[1]));
+        let (across, up2) = (x.mul_add(x, y * y), up * up);
         // |h|², which is 2 V·M over the stretched view's length, and the square of its length on
         // the surface: their quotient is in the mirror and in D.
-        let (stretched, squeezed) = (across + up, S::splat(cap.a2).mul_add(across, up));
-        let mirror = stretched / squeezed;
-        let aside = S::splat(cap.aside) * mirror;
-        let upward = S::splat(cap.upward) * mirror;
-        let from = [
-            S::splat(-self.v[0]),
-            S::splat(-self.v[1]),
-            S::splat(-self.v[2]),
-        ];
-        self.l[0].put(at, aside.mul_add(h[0], from[0]));
-        self.l[1].put(at, aside.mul_add(h[1], from[1]));
-        let l = upward.mul_add(h[2], from[2]);
-        self.l[2].put(at, l);
-        let length = (l * l).mul_add(S::splat(cap.rest), S::splat(cap.a2));
-        [l, length.sqrt(), squeezed / stretched]
+        let squeezed = S::splat(cap.a2).mul_add(across, up2);
+        [x, y, up, (across + up2) / squeezed]
     }
 
     #[inline(always)]
-    fn third(&self, at: At, [l, length, density]: [S; 3]) {
+    fn third(&self, at: At, [x, y, up, mirror]: [S; 4]) -> [S; 3] {
         let cap = &self.cap;
-        let w = l.mul_add(S::splat(cap.length), S::splat(cap.z) * length);
-        self.pdf.put(at, density * density * S::splat(cap.density));
+        let aside = S::splat(cap.aside) * mirror;
+        let upward = S::splat(cap.upward) * mirror;
+        self.l[0].put(at, aside.mul_add(x, S::splat(-self.v[0])));
+        self.l[1].put(at, aside.mul_add(y, S::splat(-self.v[1])));
+        let l = upward.mul_add(up, S::splat(-self.v[2]));
+        self.l[2].put(at, l);
+        let square = (l * l).mul_add(S::splat(cap.square_slope), S::splat(cap.square));
+        [l, square.sqrt(), S::splat(cap.density) / (mirror * mirror)]
+    }
+
+    #[inline(always)]
+    fn fourth(&self, at: At, [l, root, density]: [S; 3]) {
+        let w = l.mul_add(S::splat(self.cap.length), root);
+        self.pdf.put(at, density);
         self.weight.put(at, l.masks(l / w));
     }
 }
@@ -114,23 +114,24 @@ impl<S: Lanes> Kernel<S> for Drawing<'_> {
 struct Cap {
     /// From the cap's pole to its rim.
     depth: f32,
-    /// Height of the rim over the sphere's lowest point.
-    rim: f32,
-    /// Height of the lowest half vector.
+    /// How far up the half vector of the rim reaches, and how much less than the rim itself over
+    /// the sphere's lowest point.
     lowest: f32,
+    under: f32,
     /// The stretched view, of length 1, along the tangent and the bitangent.
     view: [f32; 2],
-    /// α² and 1 − α².
+    /// α².
     a2: f32,
-    rest: f32,
     /// The stretched view's length times α, and as it is.
     aside: f32,
     upward: f32,
-    /// Density over the square of the quotient of lengths.
+    /// Density times the square of the quotient of lengths.
     density: f32,
-    /// The factors of the weight's divisor: infinite for a view below the horizon.
+    /// The weight is l / (`length` l + sqrt(`square` + `square_slope` l²)); `length` is infinite
+    /// for a view below the horizon.
     length: f32,
-    z: f32,
+    square: f32,
+    square_slope: f32,
 }
 
 impl Cap {
@@ -149,19 +150,23 @@ impl Cap {
         let low = bound * (z / length);
         // Density over D.
         let share = 0.5 / (bound * z + length);
-        let lit = if z > 0.0 { 2.0 * share } else { f64::INFINITY };
+        let (side, up) = if z > 0.0 {
+            (2.0 * share * length, 2.0 * share * z)
+        } else {
+            (f64::INFINITY, 0.0)
+        };
         Cap {
             depth: (1.0 + low) as f32,
-            rim: (1.0 - low) as f32,
             lowest: ((1.0 - bound) * (z / length)) as f32,
+            under: (1.0 - z / length) as f32,
             view: [x, y].map(|across| (a * across / length) as f32),
             a2: a2 as f32,
-            rest: rest as f32,
             aside: (length * a) as f32,
             upward: length as f32,
             density: (share * FRAC_1_PI / a2) as f32,
-            length: (length * lit) as f32,
-            z: (z * lit) as f32,
+            length: side as f32,
+            square: (up * up * a2) as f32,
+            square_slope: (up * up * rest) as f32,
         }
     }
 }

@@ -136,6 +136,7 @@ impl<S: Lanes, V: Source, A: Source, M: Mirror> Kernel<S> for AnyCosines<'_, V, 
     /// α², N·L from 0 up, and the two roots.
     type First = [S; 4];
     type Second = S;
+    type Third = ();
 
     #[inline(always)]
     fn first(&self, at: At) -> [S; 4] {
@@ -214,6 +215,7 @@ impl<S: Lanes, M: Mirror> Kernel<S> for KnownCosines<'_, M> {
     /// N·L from 0 up, and the root with it.
     type First = [S; 2];
     type Second = S;
+    type Third = ();
 
     #[inline(always)]
     fn first(&self, at: At) -> [S; 2] {
@@ -365,6 +367,7 @@ impl<S: Lanes, L: Directions, V: Directions, A: Source, F: Source> Kernel<S>
     type First = Rooted<S>;
     /// The value with F = 1, and 1 − V·H.
     type Second = [S; 2];
+    type Third = ();
 
     #[inline(always)]
     fn first(&self, at: At) -> Rooted<S> {

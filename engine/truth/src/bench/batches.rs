@@ -290,7 +290,7 @@ pub(super) fn specular(isa: Isa, variant: &str, columns: &[Aligned; 6], out: &mu
 }
 
 /// Divisions, square roots and products from vectors, α and f0 the same for all.
-const VECTORS: (f64, f64, f64) = (2.0, 3.0, 33.0);
+const VECTORS: (f64, f64, f64) = (2.0, 3.0, 24.0);
 
 fn vectors() -> Vec<Subject> {
     let lobe = Specular {
@@ -416,7 +416,7 @@ impl Drawing {
 }
 
 /// Divisions, square roots and products of a sample with density and weight.
-pub(super) const SAMPLE: (f64, f64, f64) = (3.0, 2.0, 30.0);
+pub(super) const SAMPLE: (f64, f64, f64) = (3.0, 2.0, 27.0);
 
 fn sample() -> Vec<Subject> {
     let ggx = Ggx::new(f64::from(0.4f32));
