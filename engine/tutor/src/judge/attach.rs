@@ -164,6 +164,19 @@ impl Reading {
         let before = self.before(list, next);
         let local =
             |m: &Mention| Some(self.with_partner(list, self.specific(list, m), Held::Local));
+        // "darker than the centre, which is a quarter": what stands right before is meant.
+        let first = self.clause.partition_point(|&c| c < clause);
+        if first > 0
+            && self.tokens[first].is("which")
+            && !list
+                .get(next.wrapping_sub(1))
+                .is_some_and(|m| m.start >= first)
+            && let Some(m) = list[..next.min(list.len())]
+                .last()
+                .filter(|m| m.class == PLACE && m.end + 1 >= first)
+        {
+            return Some(self.with_partner(list, m, Held::Local));
+        }
         let after_here = after.filter(|m| self.clause[m.start] == clause);
         // "the ball has the larger highlight": an article before the word binds it forward.
         let article = found.start > 0

@@ -374,11 +374,11 @@ impl Reading {
             self.put_right(marker);
             let here = self.sentence[marker];
             let split = self.statements.partition_point(|s| s.tokens.0 < marker);
-            let from = self.statements[..split]
+            let near = split.saturating_sub(12);
+            let from = self.statements[near..split]
                 .iter()
                 .rposition(|s| s.sentence + 1 < here)
-                .map_or(0, |i| i + 1)
-                .max(split.saturating_sub(12));
+                .map_or(near, |i| near + i + 1);
             let to = (split + 12).min(self.statements.len());
             for earlier in from..split {
                 let conflict = (split..to).any(|later| {
@@ -404,10 +404,7 @@ impl Reading {
             .rev()
             .find(|&i| self.sentence[i] == here && self.tokens[i].word == self.tokens[again].word);
         let Some(first) = first else { return };
-        for statement in &mut self.statements {
-            let at = statement.tokens.0;
-            statement.void |= first <= at && at < marker;
-        }
+        self.each_between(first, marker, |s| s.void = true);
     }
 
     fn dismiss(&mut self) {
@@ -523,6 +520,8 @@ impl Reading {
 
 /// Whether two statements about the same thing cannot both be held.
 pub fn conflicts(lexicon: &Lexicon, a: &Statement, b: &Statement) -> bool {
+    #[cfg(test)]
+    super::text::steps::step();
     let same_topic = (0..CLASSES)
         .filter(|&class| class != QUANTITY)
         .all(|class| match (&a.about[class], &b.about[class]) {

@@ -560,6 +560,8 @@ pub const REPORTS: &[&[&str]] = &[
     &["one", "might", "expect"],
     &["you", "might", "expect"],
     &["you", "would", "expect"],
+    &["forget"],
+    &["never", "mind"],
     &["people", "say"],
     &["some", "say"],
     &["people", "think"],

@@ -5,7 +5,7 @@ use super::claim::conflicts;
 use super::grammar;
 use super::lexicon::{CLASSES, Lexicon, QUANTITY, Role};
 use super::parse::{Reading, Statement, starts_with};
-use super::text::Token;
+use super::text::{Kind, Token};
 
 /// Openings behind which stands what the learner no longer holds, if he turns against it.
 const AT_FIRST: &[&[&str]] = &[
@@ -26,6 +26,8 @@ const AT_FIRST: &[&[&str]] = &[
     &["initially", "i"],
     &["i", "initially"],
     &["i", "assumed"],
+    &["i", "would", "say"],
+    &["i", "could", "say"],
 ];
 
 /// Of what they say, the clause before is only reported.
@@ -37,6 +39,14 @@ const ATTRIBUTED: &[&[&str]] = &[
     &["what", "they", "want"],
     &["what", "you", "want"],
 ];
+
+/// Words at which a sentence turns.
+const TURNS: &[&str] = &[
+    "but", "however", "though", "although", "--", ";", "...", "actually", "yet",
+];
+
+/// So many tokens what is said of others' words, or taken back, reaches at most.
+const REACH: usize = 60;
 
 impl Reading {
     /// Marks what is said without being held.
@@ -61,7 +71,8 @@ impl Reading {
                 });
                 if quoted {
                     let sentence = self.sentence[at];
-                    self.each_between(0, at, |s| s.void |= s.sentence == sentence);
+                    let from = at.saturating_sub(REACH);
+                    self.each_between(from, at, |s| s.void |= s.sentence == sentence);
                 }
             }
             if !grammar::speaks(&self.tokens[at].word) || !self.others_speak(at) {
@@ -87,23 +98,13 @@ impl Reading {
 
     /// The first token from here on at which the sentence turns or ends.
     fn turn_after(&self, from: usize) -> usize {
-        (from..self.tokens.len())
+        let limit = (from + REACH).min(self.tokens.len());
+        (from..limit)
             .find(|&i| {
                 self.sentence[i] != self.sentence[from - 1]
-                    || matches!(
-                        self.tokens[i].word.as_str(),
-                        "but"
-                            | "however"
-                            | "though"
-                            | "although"
-                            | "--"
-                            | ";"
-                            | "..."
-                            | "actually"
-                            | "yet"
-                    )
+                    || TURNS.iter().any(|word| self.tokens[i].is(word))
             })
-            .unwrap_or(self.tokens.len())
+            .unwrap_or(limit)
     }
 
     /// Whether what follows calls what went before wrong, or turns away from it.
@@ -122,7 +123,12 @@ impl Reading {
                     | "incorrect" | "untrue" | "myth" => they,
                     "disagree" => true,
                     "look" => word(i + 1) == "again",
-                    "i" => word(i + 1) == "do" && word(i + 2) == "not",
+                    "i" => {
+                        word(i + 1) == "do"
+                            && word(i + 2) == "not"
+                            && (matches!(word(i + 3), "believe" | "think" | "agree" | "buy")
+                                || self.tokens.get(i + 3).is_none_or(|t| t.kind != Kind::Word))
+                    }
                     "but" => matches!(word(i + 1), "really" | "actually" | "no" | "in"),
                     _ => false,
                 }
@@ -147,7 +153,9 @@ impl Reading {
                         "but" | "no" | "actually" | "however" | "wait" | "then" | "now"
                     )
             });
-            if turns {
+            // "I would say ..." is held, unless what follows takes it back.
+            let held = opening.last() == Some(&"say") && opening.len() == 3;
+            if turns && !(held && !self.dismissed(end)) {
                 self.each_between(from, end, |s| s.void = true);
             }
         }
@@ -209,11 +217,16 @@ impl Reading {
         }
     }
 
-    fn each_between(&mut self, from: usize, to: usize, change: impl Fn(&mut Statement)) {
+    /// Changes the statements that begin within a range of tokens.
+    pub fn each_between(&mut self, from: usize, to: usize, change: impl Fn(&mut Statement)) {
         let first = self.statements.partition_point(|s| s.tokens.0 < from);
         self.statements[first..]
             .iter_mut()
-            .take_while(|s| s.tokens.0 < to)
+            .take_while(|s| {
+                #[cfg(test)]
+                super::text::steps::step();
+                s.tokens.0 < to
+            })
             .for_each(change);
     }
 }

@@ -69,7 +69,7 @@ impl Atom {
                 };
                 score = 0.85
                     * self.polarity(lexicon, &claimed, ears, false)
-                    * self.topic(lexicon, &claimed, ears);
+                    * self.topic(lexicon, reading, &claimed, ears);
                 let best: &mut Hit = hits.entry(statement.sentence).or_default();
                 if score > best.score && score >= PERHAPS {
                     *best = Hit {
@@ -89,7 +89,7 @@ impl Atom {
             {
                 score *= 0.75;
             }
-            score *= self.topic(lexicon, statement, ears);
+            score *= self.topic(lexicon, reading, statement, ears);
             if score < PERHAPS {
                 continue;
             }
@@ -131,7 +131,13 @@ impl Atom {
     }
 
     /// Is the statement about what the phrase is about?
-    fn topic(&self, lexicon: &Lexicon, statement: &Statement, ears: Ears<'_>) -> f64 {
+    fn topic(
+        &self,
+        lexicon: &Lexicon,
+        reading: &Reading,
+        statement: &Statement,
+        ears: Ears<'_>,
+    ) -> f64 {
         // What one sees of the spot says nothing of the cause behind it.
         let of_cause = !self.about[QUANTITY].is_empty() || !self.things.is_empty();
         let held = if self.things.is_empty() {
@@ -179,6 +185,8 @@ impl Atom {
             }
             let generic = class == PLACE && (is(wanted, "whole") || is(wanted, "highlight"));
             score *= match about {
+                // "less light where N faces L; blow-out where it doesn't": somewhere, not all over.
+                None if generic && ears.strict && elsewhere(lexicon, reading, statement) => 0.6,
                 None if generic => 0.9,
                 None => match class {
                     PLACE => 0.55,
@@ -350,6 +358,20 @@ fn is_highlight(lexicon: &Lexicon, statement: &Statement, held: Held) -> bool {
                 .iter()
                 .any(|&id| lexicon.concept(id).name == "highlight")
     })
+}
+
+/// Whether the sentence of a statement that names no place names one for something else.
+fn elsewhere(lexicon: &Lexicon, reading: &Reading, statement: &Statement) -> bool {
+    let low = reading
+        .statements
+        .partition_point(|s| s.sentence < statement.sentence);
+    reading.statements[low..]
+        .iter()
+        .take_while(|s| s.sentence == statement.sentence)
+        .take(24)
+        .filter_map(|s| s.about[PLACE].as_ref())
+        .flat_map(|about| &about.concepts)
+        .any(|&id| matches!(lexicon.concept(id).name.as_str(), "centre" | "rim"))
 }
 
 fn without_cause(statement: &Statement) -> [Option<About>; CLASSES] {

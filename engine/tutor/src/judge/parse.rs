@@ -4,6 +4,8 @@
 //! that exclude each other, the one it is about: the word it stands with, else the last one
 //! spoken of. All passes run over the tokens a bounded number of times.
 
+use std::collections::BTreeMap;
+
 use super::denial::denials;
 use super::grammar;
 use super::lexicon::{CAUSE, CLASSES, Form, Id, Lexicon, MATERIAL, PLACE, Role, SURFACE};
@@ -113,7 +115,16 @@ pub struct Match {
 
 /// Reads tokens.
 pub fn read(lexicon: &Lexicon, tokens: Vec<Token>, setting: &Setting, mute: &[bool]) -> Reading {
-    let forms: Vec<Form> = tokens.iter().map(|token| lexicon.form(token)).collect();
+    // Words come back; their forms are looked up once.
+    let mut known: BTreeMap<(&str, bool), Form> = BTreeMap::new();
+    let forms: Vec<Form> = tokens
+        .iter()
+        .map(|token| {
+            let key = (token.word.as_str(), token.kind == Kind::Word);
+            let form = known.entry(key).or_insert_with(|| lexicon.form(token));
+            form.clone()
+        })
+        .collect();
     // Where the question names no artist, a lamp is a lamp.
     let question_known = setting.order.iter().any(|order| !order.is_empty());
     let artist = lexicon

@@ -134,6 +134,14 @@ impl Reading {
                 });
             let meant = |id: Id| statement.concepts.contains(&id);
             // "H equals V": two directions of the question, not two pictures.
+            let equals = same.is_some_and(meant)
+                && self.tokens[statement.tokens.0].word.starts_with("equal");
+            let number = (statement.tokens.1..statement.tokens.1 + 2)
+                .any(|i| self.tokens.get(i).is_some_and(|t| t.kind == Kind::Value));
+            if equals && number {
+                self.statements[index].void = true;
+                continue;
+            }
             if same.is_some_and(meant) && self.tokens[statement.tokens.0].word.starts_with("equal")
             {
                 let clause = statement.clause;

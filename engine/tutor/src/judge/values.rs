@@ -104,10 +104,11 @@ pub fn setting(tokens: &[Token], at: usize) -> Found {
             &["divided", "divide", "division", "dividing"],
         );
     if is(tokens, at, &["for", "at", "with", "when"]) && !shares {
-        let value = number(tokens, at + 1).filter(|&v| v == 0.0 || v == 1.0)?;
+        let inner = at + 1 + usize::from(is(tokens, at + 1, &["exactly", "precisely", "just"]));
+        let value = number(tokens, inner).filter(|&v| v == 0.0 || v == 1.0)?;
         if is(
             tokens,
-            at + 2,
+            inner + 1,
             &[
                 "/",
                 "*",
@@ -127,7 +128,7 @@ pub fn setting(tokens: &[Token], at: usize) -> Found {
         ) {
             return None;
         }
-        return found(2, surface(value)?);
+        return found(inner + 1 - at, surface(value)?);
     }
     let value = number(tokens, at)?;
     // "0 -> infinite; 1 -> 1/pi".
