@@ -357,3 +357,35 @@ fn not_a_number() {
         }
     }
 }
+
+/// What is given once for all is what is given for each, but for what then leaves the loop.
+#[test]
+fn given_once_or_each() {
+    let mut numbers = Numbers(7);
+    let l: Vec<Vec3> = (0..100).map(|_| numbers.direction()).collect();
+    let column = |i: usize| l.iter().map(|l| l[i]).collect::<Vec<f32>>();
+    let (light, v) = ([column(0), column(1), column(2)], numbers.direction());
+    let same = [v.x, v.y, v.z, 0.3, 0.04].map(|value| vec![value; 100]);
+    let once = [v.x, v.y, v.z, 0.3, 0.04].map(Input::All);
+    for isa in Isa::available() {
+        // One bit for each argument that is given once.
+        let evaluate = |which: usize| {
+            let pick = |i: usize| match which & 1 << i {
+                0 => Input::Each(&same[i]),
+                _ => once[i],
+            };
+            let input = Vectors {
+                l: light.each_ref().map(Vec::as_slice),
+                v: [pick(0), pick(1), pick(2)],
+                alpha: pick(3),
+                f0: Some(pick(4)),
+            };
+            let mut out = vec![0.0; 100];
+            batch::specular_vectors(isa, &input, &mut out);
+            out
+        };
+        for which in 1..32 {
+            assert_eq!(evaluate(which), evaluate(0), "{} {which:b}", isa.name());
+        }
+    }
+}

@@ -9,7 +9,7 @@ use std::ops::{Deref, DerefMut};
 use std::time::Duration;
 
 /// Elements of a batch: eight slices of them fit in a second-level cache.
-pub(super) const COUNT: usize = 2048;
+pub(super) const COUNT: usize = 4096;
 
 /// Over how many rounds the time of each row is spread.
 const ROUNDS: u32 = 40;
@@ -145,7 +145,8 @@ impl Batches {
     pub(super) fn round(&mut self) {
         let time = self.effort.time / ROUNDS;
         for units in &mut self.units {
-            units.round(time, 1);
+            // Everything is compared with them.
+            units.round(2 * time, 3);
         }
         for subject in self.subjects.iter_mut().flatten() {
             subject.watch.round(time, 1);
