@@ -31,7 +31,8 @@ const UNKNOWNS: usize = 2 * DEGREE + 1;
 /// Most that the quotient, computed in single precision, may be wrong where it is tried.
 const TOLERATED_ULPS: f64 = 9.0;
 
-/// Dividend and divisor by powers of the cosine, lowest first.
+/// Dividend and divisor by powers of the cosine, lowest first; where it is used, the highest
+/// power of the divisor has the factor 1, which saves a product.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Quotient<R> {
     dividend: [R; DEGREE + 1],
@@ -62,7 +63,10 @@ impl Conductor {
     /// Fits the quotient, and tries it.
     pub fn new(n: f32, k: f32) -> Conductor {
         let exact = |c: f64| f_conductor(f64::from(n), f64::from(k), c);
-        let quotient = fit(exact).map(|fitted| fitted.map(|c| c as f32));
+        let quotient = fit(exact).map(|fitted| {
+            let highest = fitted.divisor[DEGREE];
+            fitted.map(|c| (c / highest) as f32)
+        });
         Conductor {
             n,
             k,
@@ -212,13 +216,18 @@ fn quotients<V: Lanes, T: Lanes>(
 /// Dividend and divisor.
 #[inline(always)]
 fn both<S: Lanes>(color: &Quotient<f32>, c: S) -> (S, S) {
-    (horner(&color.dividend, c), horner(&color.divisor, c))
+    let dividend = S::splat(color.dividend[DEGREE]).mul_add(c, S::splat(color.dividend[3]));
+    let divisor = c + S::splat(color.divisor[3]);
+    (
+        horner(dividend, &color.dividend, c),
+        horner(divisor, &color.divisor, c),
+    )
 }
 
+/// What follows the two highest powers.
 #[inline(always)]
-fn horner<S: Lanes>([c0, c1, c2, c3, c4]: &[f32; DEGREE + 1], c: S) -> S {
-    S::splat(*c4)
-        .mul_add(c, S::splat(*c3))
+fn horner<S: Lanes>(begun: S, [c0, c1, c2, ..]: &[f32; DEGREE + 1], c: S) -> S {
+    begun
         .mul_add(c, S::splat(*c2))
         .mul_add(c, S::splat(*c1))
         .mul_add(c, S::splat(*c0))
