@@ -168,9 +168,9 @@ impl Reading {
         let first = self.clause.partition_point(|&c| c < clause);
         if first > 0
             && self.tokens[first].is("which")
-            && !list
+            && list
                 .get(next.wrapping_sub(1))
-                .is_some_and(|m| m.start >= first)
+                .is_none_or(|m| m.start < first)
             && let Some(m) = list[..next.min(list.len())]
                 .last()
                 .filter(|m| m.class == PLACE && m.end + 1 >= first)
@@ -341,7 +341,9 @@ impl Reading {
         let same = self.clause[earlier.start] == self.clause[m.start]
             && !self.generic.contains(&earlier.concept);
         // "At the edge the reflection", "the rim in his picture".
-        let within = led(m, 2) && m.start - earlier.end <= 3;
+        let within = m.start - earlier.end <= 3
+            && (m.start.saturating_sub(2)..m.start)
+                .any(|i| matches!(self.tokens[i].word.as_str(), "of" | "in" | "on"));
         if same && (led(earlier, 3) || within) {
             earlier
         } else {

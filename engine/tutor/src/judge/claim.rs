@@ -272,7 +272,7 @@ impl Reading {
                 let refused = self.tokens.get(at + 1).is_some_and(|next| {
                     matches!(
                         next.word.as_str(),
-                        "no" | "not" | "nope" | "never" | "nah" | "hardly" | "wrong"
+                        "no" | "not" | "nope" | "never" | "nah" | "hardly" | "wrong" | "forget"
                     )
                 }) || starts_with(&self.tokens, at + 1, &["on", "the", "contrary"])
                     || starts_with(&self.tokens, at + 1, &["quite", "the", "opposite"])
@@ -521,7 +521,7 @@ impl Reading {
 /// Whether two statements about the same thing cannot both be held.
 pub fn conflicts(lexicon: &Lexicon, a: &Statement, b: &Statement) -> bool {
     #[cfg(test)]
-    super::text::steps::step();
+    super::steps::step();
     let same_topic = (0..CLASSES)
         .filter(|&class| class != QUANTITY)
         .all(|class| match (&a.about[class], &b.about[class]) {

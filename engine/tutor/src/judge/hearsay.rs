@@ -52,6 +52,7 @@ impl Reading {
     /// Marks what is said without being held.
     pub fn hearsay(&mut self, lexicon: &Lexicon) {
         self.reported();
+        self.supposed();
         self.retracted();
         self.torn(lexicon);
     }
@@ -81,6 +82,28 @@ impl Reading {
             let end = self.turn_after(at + 1);
             if self.dismissed(end) {
                 self.each_between(at + 1, end, |s| s.denied = true);
+            }
+        }
+    }
+
+    /// "If H were its normal the rim would be bright, but it is not": nothing of it is so.
+    fn supposed(&mut self) {
+        for at in 0..self.tokens.len() {
+            if !self.tokens[at].is("if") {
+                continue;
+            }
+            let word = |i: usize| self.tokens.get(i).map_or("", |t| t.word.as_str());
+            let unreal = (at + 1..at + 7).any(|i| word(i) == "were");
+            let to = (at + REACH).min(self.tokens.len());
+            let refused = (at..to)
+                .take_while(|&i| self.sentence[i] == self.sentence[at])
+                .find(|&i| {
+                    word(i) == "but"
+                        && matches!(word(i + 1), "it" | "they" | "that")
+                        && (i + 2..i + 5).any(|j| word(j) == "not")
+                });
+            if let Some(end) = refused.filter(|_| unreal) {
+                self.each_between(at, end, |s| s.void = true);
             }
         }
     }
@@ -154,8 +177,9 @@ impl Reading {
                     )
             });
             // "I would say ..." is held, unless what follows takes it back.
-            let held = opening.last() == Some(&"say") && opening.len() == 3;
-            if turns && !(held && !self.dismissed(end)) {
+            let said = opening.last() == Some(&"say") && opening.len() == 3;
+            let taken_back = !said || self.dismissed(end);
+            if turns && taken_back {
                 self.each_between(from, end, |s| s.void = true);
             }
         }
@@ -224,7 +248,7 @@ impl Reading {
             .iter_mut()
             .take_while(|s| {
                 #[cfg(test)]
-                super::text::steps::step();
+                super::steps::step();
                 s.tokens.0 < to
             })
             .for_each(change);

@@ -19,6 +19,8 @@ mod phrase;
 mod refer;
 mod signs;
 mod spelling;
+#[cfg(test)]
+mod steps;
 mod subject;
 mod symbols;
 mod text;
@@ -532,7 +534,6 @@ pub fn verdict(
 
 #[cfg(test)]
 mod tests {
-    use super::text::steps;
     use super::*;
 
     fn two_balls() -> Rubric {

@@ -133,6 +133,11 @@ pub fn resolve_ordinals(
         let case = matches!(before(1), "in" | "on" | "for")
             && matches!(follows, "case" | "photo" | "picture" | "image" | "ball")
             && tokens[at..].iter().take(40).any(|t| t.is("other"));
+        // "One is a dot, the other is a blur."
+        let opens_pair = (at == 0 || matches!(tokens[at - 1].kind, Kind::Stop | Kind::Break))
+            && grammar::is_copula(follows)
+            && (at + 2..(at + 40).min(tokens.len()))
+                .any(|i| tokens[i].is("other") && tokens[i - 1].is("the"));
         let other_than = |last: Option<Id>| {
             let topic = last.or_else(|| order.first().copied());
             let mut all = setting.order[class].iter().copied();
@@ -164,7 +169,7 @@ pub fn resolve_ordinals(
             }
             "other" if any_other || from_one => None,
             "other" if in_the => other_than(last),
-            "one" if case => order.first().copied(),
+            "one" if case || opens_pair => order.first().copied(),
             "other" if names_one || (after_article && grammar::is_copula(follows)) => {
                 other_than(last)
             }

@@ -45,33 +45,13 @@ impl Token {
     /// Whether it is this word, operator or value.
     pub fn is(&self, word: &str) -> bool {
         #[cfg(test)]
-        steps::step();
+        super::steps::step();
         self.word == word
     }
 
     /// Whether it ends a sentence.
     pub fn ends_sentence(&self) -> bool {
         matches!(self.kind, Kind::Stop | Kind::Question)
-    }
-}
-
-/// Counts comparisons of tokens, so that a test sees what grows faster than the answer.
-#[cfg(test)]
-pub mod steps {
-    use std::cell::Cell;
-
-    thread_local! {
-        static TAKEN: Cell<u64> = const { Cell::new(0) };
-    }
-
-    /// One more.
-    pub fn step() {
-        TAKEN.with(|taken| taken.set(taken.get() + 1));
-    }
-
-    /// How many so far.
-    pub fn taken() -> u64 {
-        TAKEN.with(Cell::get)
     }
 }
 
