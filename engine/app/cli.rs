@@ -279,6 +279,15 @@ pub enum Backend {
     Cpu,
 }
 
+/// A file of a picture's values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Values {
+    /// Linear, as an OpenEXR file of 32-bit floats
+    Exr,
+    /// Exposed as in the picture, through the sRGB curve, as a PNG of 16 bits
+    Png16,
+}
+
 #[derive(Debug, Args)]
 pub struct Render {
     /// Ids or numbers of lessons (else all)
@@ -295,6 +304,9 @@ pub struct Render {
     /// What the CPU computes in; a graphics processor computes in f32
     #[arg(long, value_enum, default_value_t)]
     pub precision: Precision,
+    /// Write the values of both panels too, beside each fingerprint
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    pub values: Option<Values>,
     /// Draw again what is already there
     #[arg(long)]
     pub force: bool,

@@ -12,6 +12,7 @@ mod exit;
 mod fingerprints;
 mod lessons;
 mod output;
+mod picture_cache;
 mod plain;
 mod second;
 mod sheet;

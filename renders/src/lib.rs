@@ -29,6 +29,7 @@ mod map;
 mod pen;
 mod picture;
 mod plan;
+mod png16;
 mod probe;
 mod profile;
 mod sample;
@@ -88,6 +89,25 @@ pub struct Fingerprint<'a> {
     pub wrong: &'a Expr,
     /// The sphere's material, its lights and the eye.
     pub scene: Scene,
+}
+
+impl Fingerprint<'_> {
+    /// Everything that the picture depends on, as text: two fingerprints with the same one give
+    /// the same picture from the same version of this program. Formulas are in their canonical
+    /// form, with their definitions opened: how they are spelt does not matter.
+    pub fn key(&self, options: &Options) -> String {
+        format!(
+            "fingerprint\n{}\n{}\n{:?}\n{}\n{}\n{}\n{}\n{options:?}",
+            self.library.canonical(self.right),
+            self.library.canonical(self.wrong),
+            self.scene,
+            // The headings show them as they are written.
+            self.library.unicode(self.right),
+            self.library.unicode(self.wrong),
+            self.title,
+            self.caption,
+        )
+    }
 }
 
 /// What draws.
@@ -283,6 +303,14 @@ pub fn render(
             visibility,
         },
     })
+}
+
+/// The factor by which a fingerprint's values are multiplied before they are shown; 1 where a
+/// formula does not fit the scene.
+pub fn exposure(fingerprint: &Fingerprint<'_>) -> f64 {
+    let plan = Plan::of(fingerprint, true);
+    Cpu::new(fingerprint, &plan, Precision::F64)
+        .map_or(1.0, |cpu| Profile::of(fingerprint, &cpu).exposure())
 }
 
 /// The linear values of both panels, without a picture.

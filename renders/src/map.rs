@@ -58,6 +58,30 @@ impl Scale {
         }
     }
 
+    /// The ends of the bar.
+    fn ends(self) -> (f64, f64) {
+        match self {
+            Self::Linear(low, high) | Self::Log(low, high) => (low, high),
+            Self::Ratio => ((-RATIO_STOPS).exp2(), RATIO_STOPS.exp2()),
+        }
+    }
+
+    /// Ticks of the bar for these values: where there are some beyond an end, it says so.
+    fn ticks_for(self, values: &[f64], count: usize) -> Vec<Tick> {
+        let (low, high) = self.ends();
+        let near = |a: f64, b: f64| (a - b).abs() < 1e-9 * b.abs();
+        let mut ticks = self.ticks(count);
+        for tick in &mut ticks {
+            if near(tick.at, high) && values.iter().any(|value| *value > high) {
+                tick.label.insert_str(0, "≥ ");
+            }
+            if near(tick.at, low) && values.iter().any(|value| *value < low) {
+                tick.label.insert_str(0, "≤ ");
+            }
+        }
+        ticks
+    }
+
     fn ticks(self, count: usize) -> Vec<Tick> {
         let axis = |low, high, log| Axis::fit([].into_iter(), log, Some((low, high)), false);
         match self {
@@ -125,7 +149,9 @@ pub fn map_png(spec: &MapSpec, width: u32, height: u32) -> Result<Vec<u8>, Error
     let (w, h) = (width as f32, height as f32);
     let em = (w.min(h * 1.6) / 58.0).clamp(9.0, 40.0);
     let y_ticks = y_axis.ticks((h / (4.0 * em)) as usize);
-    let value_ticks = spec.scale.ticks((h / (4.0 * em)) as usize);
+    let value_ticks = spec
+        .scale
+        .ticks_for(&spec.values, (h / (4.0 * em)) as usize);
     let widest = |ticks: &[Tick]| {
         ticks
             .iter()

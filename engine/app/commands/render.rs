@@ -1,4 +1,4 @@
-//! `lobe render`: fingerprints as PNG, plots as SVG and PNG.
+//! `lobe render`: fingerprints and maps as PNG, plots as SVG and PNG.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -6,19 +6,21 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-use etcetera::BaseStrategy as _;
-use renders::{Fingerprint, Options, PlotSpec};
+use renders::{Fingerprint, MapSpec, Options, PlotSpec};
 use serde::{Deserialize, Serialize};
 use tutor::Lesson;
-use tutor::prose::{Block, PlotView};
+use tutor::map::Scale;
+use tutor::prose::Block;
 
-use crate::cli::{Backend, Folders, Precision, Render};
+use crate::cli::{Backend, Folders, Precision, Render, Values};
 use crate::exit::{Done, Failure};
 use crate::fingerprints::{figure, fingerprint};
 use crate::output;
+use crate::picture_cache::Entry;
 
-/// Width and height of a plot's file.
+/// Width and height of a plot's file, and of a map's.
 const PLOT: (u32, u32) = (960, 600);
+const MAP: (u32, u32) = (800, 600);
 
 /// How a picture came about.
 #[derive(Clone, Serialize, Deserialize)]
@@ -88,15 +90,20 @@ pub fn run(folders: &Folders, args: &Render) -> Result<Done, Failure> {
     for lesson in lessons {
         for entry in &lesson.fingerprints {
             if let Some(fingerprint) = fingerprint(lesson, &entry.id) {
-                say(&draw(&fingerprint, args, &out)?, args)?;
-            }
-        }
-        for entry in &lesson.plots {
-            if let Some(Block::Plot(view)) = lesson.plot(&entry.id) {
-                for report in draw_plot(lesson, &view, &out)? {
-                    say(&report, args)?;
+                let report = draw(&fingerprint, args, &out)?;
+                say(&report, args)?;
+                if let Some(format) = args.values {
+                    say(&write_values(&fingerprint, args, format, &out)?, args)?;
                 }
             }
+        }
+        let plots = lesson.plots.iter();
+        let plots = plots.flat_map(|plot| [(&plot.id, "svg"), (&plot.id, "png")]);
+        for (id, ending) in plots {
+            say(&draw_plot(lesson, id, ending, args, &out)?, args)?;
+        }
+        for map in &lesson.maps {
+            say(&draw_map(lesson, &map.id, args, &out)?, args)?;
         }
     }
     Ok(Done::Fine)
@@ -138,26 +145,36 @@ fn say(report: &Report, args: &Render) -> Result<(), Failure> {
     Ok(())
 }
 
-fn draw(fingerprint: &Fingerprint, args: &Render, out: &Path) -> Result<Report, Failure> {
+/// A picture from the cache, or from `make`: its report says which.
+fn cached(
+    description: &str,
+    path: &Path,
+    args: &Render,
+    make: impl FnOnce() -> Result<(Report, Vec<u8>), Failure>,
+) -> Result<Report, Failure> {
     let start = Instant::now();
-    let path = out.join(format!(
-        "{}-{}.png",
-        fingerprint.lesson,
-        slug(fingerprint.id)
-    ));
-    let file = path.display().to_string();
-    let cached = cache_entry(fingerprint, args);
-    if !args.force
-        && !args.no_skip
-        && let Some((mut report, png)) = cached.as_deref().and_then(read_cache)
-    {
-        write(&path, &png)?;
-        report.file = file;
-        report.cache_hit = true;
-        report.ms = milliseconds(start);
-        return Ok(report);
+    // Without skipping the point is to compute, not to have.
+    let entry = Entry::of(description).filter(|_| !args.no_skip);
+    let known = entry.as_ref().filter(|_| !args.force);
+    let (mut report, bytes, cache_hit) = match known.and_then(Entry::read::<Report>) {
+        Some((report, bytes)) => (report, bytes, true),
+        None => {
+            let (report, bytes) = make()?;
+            (report, bytes, false)
+        }
+    };
+    write(path, &bytes)?;
+    report.file = path.display().to_string();
+    report.cache_hit = cache_hit;
+    report.ms = milliseconds(start);
+    if let (Some(entry), false) = (&entry, cache_hit) {
+        entry.write(&report, &bytes);
     }
-    let options = Options {
+    Ok(report)
+}
+
+fn options(args: &Render) -> Options {
+    Options {
         size: args.size,
         skip: !args.no_skip,
         backend: match args.backend {
@@ -170,72 +187,79 @@ fn draw(fingerprint: &Fingerprint, args: &Render, out: &Path) -> Result<Report, 
             Precision::F32 => renders::Precision::F32,
         },
         ..Options::default()
-    };
-    let picture =
-        renders::render(fingerprint, &options, &AtomicBool::new(false)).map_err(|error| {
-            Failure::unusable(format!(
-                "{}/{}: {error}",
-                fingerprint.lesson, fingerprint.id
-            ))
-        })?;
-    let png = picture.png();
-    write(&path, &png)?;
-    let made = picture.report;
-    let report = Report {
-        file,
-        lesson: fingerprint.lesson.to_owned(),
-        id: fingerprint.id.to_owned(),
-        backend: made.backend.to_owned(),
-        adapter: made.adapter,
-        precision: Some(made.precision.name().to_owned()),
-        pixels_shaded: made.pixels_shaded,
-        pixels_skipped: made.pixels_skipped,
-        points: made.points,
-        terms_evaluated: made.terms_evaluated,
-        terms_skipped: made.terms_skipped,
-        explain: made.explain,
-        cache_hit: false,
-        ms: milliseconds(start),
-        device_ms: made.device_ms,
-        visibility: Some(Visibility::of(&made.visibility)),
-    };
-    if let (Some(entry), false) = (&cached, args.no_skip) {
-        write_cache(entry, &report, &png);
     }
-    Ok(report)
 }
 
-fn draw_plot(lesson: &Lesson, view: &PlotView, out: &Path) -> Result<Vec<Report>, Failure> {
-    let spec = PlotSpec {
-        title: view.title.clone(),
-        x_label: view.x_label.clone(),
-        y_label: view.y_label.clone(),
-        x_log: view.x_log,
-        y_log: view.y_log,
-        series: view.series.clone(),
-        marks: view.marks.clone(),
-        ..PlotSpec::default()
-    };
-    let failed =
-        |error: renders::Error| Failure::unusable(format!("{}/{}: {error}", lesson.id, view.id));
-    let (width, height) = PLOT;
-    let stem = format!("{}-{}", lesson.id, slug(&view.id));
-    let mut reports = Vec::new();
-    for ending in ["svg", "png"] {
-        let start = Instant::now();
-        let bytes = match ending {
-            "svg" => renders::plot_svg(&spec, width, height)
-                .map_err(failed)?
-                .into_bytes(),
-            _ => renders::plot_png(&spec, width, height).map_err(failed)?,
+/// A fingerprint's file, without its ending.
+fn stem(lesson: &str, id: &str) -> String {
+    format!("{lesson}-{}", slug(id))
+}
+
+fn failed(lesson: &str, id: &str, error: &renders::Error) -> Failure {
+    Failure::unusable(format!("{lesson}/{id}: {error}"))
+}
+
+fn draw(fingerprint: &Fingerprint, args: &Render, out: &Path) -> Result<Report, Failure> {
+    let (lesson, id) = (fingerprint.lesson, fingerprint.id);
+    let path = out.join(format!("{}.png", stem(lesson, id)));
+    let options = options(args);
+    let description = format!("{lesson}\n{id}\n{}", fingerprint.key(&options));
+    cached(&description, &path, args, || {
+        let picture = renders::render(fingerprint, &options, &AtomicBool::new(false))
+            .map_err(|error| failed(lesson, id, &error))?;
+        let png = picture.png();
+        let made = picture.report;
+        let report = Report {
+            adapter: made.adapter,
+            precision: Some(made.precision.name().to_owned()),
+            pixels_shaded: made.pixels_shaded,
+            pixels_skipped: made.pixels_skipped,
+            points: made.points,
+            terms_evaluated: made.terms_evaluated,
+            terms_skipped: made.terms_skipped,
+            explain: made.explain,
+            device_ms: made.device_ms,
+            visibility: Some(Visibility::of(&made.visibility)),
+            ..Report::of(lesson, id, made.backend)
         };
-        let path = out.join(format!("{stem}.{ending}"));
-        write(&path, &bytes)?;
-        reports.push(Report {
-            file: path.display().to_string(),
-            lesson: lesson.id.text.clone(),
-            id: view.id.clone(),
-            backend: "plot".to_owned(),
+        Ok((report, png))
+    })
+}
+
+/// The values of both panels, for whoever wants to measure rather than look.
+fn write_values(
+    fingerprint: &Fingerprint,
+    args: &Render,
+    format: Values,
+    out: &Path,
+) -> Result<Report, Failure> {
+    let (lesson, id) = (fingerprint.lesson, fingerprint.id);
+    let options = options(args);
+    let ending = match format {
+        Values::Exr => "exr",
+        Values::Png16 => "png",
+    };
+    let path = out.join(format!("{}-values.{ending}", stem(lesson, id)));
+    let description = format!("values {format:?}\n{}", fingerprint.key(&options));
+    cached(&description, &path, args, || {
+        let raw = renders::raw(fingerprint, &options);
+        let raw = raw.map_err(|error| failed(lesson, id, &error))?;
+        let bytes = match format {
+            Values::Exr => raw.exr(),
+            Values::Png16 => raw.png16(renders::exposure(fingerprint)),
+        };
+        Ok((Report::of(lesson, id, "values"), bytes))
+    })
+}
+
+impl Report {
+    /// What is known of every picture.
+    fn of(lesson: &str, id: &str, backend: &str) -> Self {
+        Self {
+            file: String::new(),
+            lesson: lesson.to_owned(),
+            id: id.to_owned(),
+            backend: backend.to_owned(),
             adapter: None,
             precision: None,
             pixels_shaded: 0,
@@ -245,12 +269,79 @@ fn draw_plot(lesson: &Lesson, view: &PlotView, out: &Path) -> Result<Vec<Report>
             terms_skipped: Vec::new(),
             explain: Vec::new(),
             cache_hit: false,
-            ms: milliseconds(start),
+            ms: 0.0,
             device_ms: None,
             visibility: None,
-        });
+        }
     }
-    Ok(reports)
+}
+
+fn draw_plot(
+    lesson: &Lesson,
+    id: &str,
+    ending: &str,
+    args: &Render,
+    out: &Path,
+) -> Result<Report, Failure> {
+    let path = out.join(format!("{}.{ending}", stem(&lesson.id, id)));
+    // The file's hash stands for all that it says: nothing is computed to find the picture.
+    let description = format!("plot {PLOT:?} {ending}\n{}\n{id}", lesson.hash);
+    cached(&description, &path, args, || {
+        let Some(Block::Plot(view)) = lesson.plot(id) else {
+            return Err(Failure::unusable(format!(
+                "{}/{id}: no such plot",
+                lesson.id
+            )));
+        };
+        let spec = PlotSpec {
+            title: view.title,
+            x_label: view.x_label,
+            y_label: view.y_label,
+            x_log: view.x_log,
+            y_log: view.y_log,
+            series: view.series,
+            marks: view.marks,
+            ..PlotSpec::default()
+        };
+        let (width, height) = PLOT;
+        let bytes = match ending {
+            "svg" => renders::plot_svg(&spec, width, height).map(String::into_bytes),
+            _ => renders::plot_png(&spec, width, height),
+        };
+        let bytes = bytes.map_err(|error| failed(&lesson.id, id, &error))?;
+        Ok((Report::of(&lesson.id, id, "plot"), bytes))
+    })
+}
+
+fn draw_map(lesson: &Lesson, id: &str, args: &Render, out: &Path) -> Result<Report, Failure> {
+    let path = out.join(format!("{}.png", stem(&lesson.id, id)));
+    let description = format!("map {MAP:?}\n{}\n{id}", lesson.hash);
+    cached(&description, &path, args, || {
+        let Some(view) = lesson.map(id) else {
+            return Err(Failure::unusable(format!(
+                "{}/{id}: no such map",
+                lesson.id
+            )));
+        };
+        let spec = MapSpec {
+            title: view.title,
+            x_label: view.x_label,
+            y_label: view.y_label,
+            value_label: view.value_label,
+            x: view.x,
+            y: view.y,
+            columns: view.columns,
+            values: view.values,
+            scale: match view.scale {
+                Scale::Linear(from, to) => renders::Scale::Linear(from, to),
+                Scale::Log(from, to) => renders::Scale::Log(from, to),
+                Scale::Ratio => renders::Scale::Ratio,
+            },
+        };
+        let bytes = renders::map_png(&spec, MAP.0, MAP.1);
+        let bytes = bytes.map_err(|error| failed(&lesson.id, id, &error))?;
+        Ok((Report::of(&lesson.id, id, "map"), bytes))
+    })
 }
 
 fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
@@ -267,53 +358,4 @@ fn slug(id: &str) -> &str {
 
 fn milliseconds(since: Instant) -> f64 {
     (since.elapsed().as_secs_f64() * 1e6).round() / 1e3
-}
-
-/// Where a picture with exactly these formulas, numbers and words is kept; named after a hash
-/// of all of them, and of this very program.
-fn cache_entry(fingerprint: &Fingerprint, args: &Render) -> Option<PathBuf> {
-    let program = std::env::current_exe().and_then(fs::metadata).ok()?;
-    let built = program
-        .modified()
-        .ok()?
-        .duration_since(std::time::UNIX_EPOCH)
-        .ok()?;
-    let library = fingerprint.library;
-    let content = format!(
-        "{:?} {built:?} {} | {} | {} | {:?} | {} | {} | {} | {:?} {:?} | {} | {}",
-        program.len(),
-        env!("CARGO_PKG_VERSION"),
-        library.canonical(fingerprint.right),
-        library.canonical(fingerprint.wrong),
-        fingerprint.scene,
-        fingerprint.title,
-        fingerprint.caption,
-        args.size,
-        args.backend,
-        args.precision,
-        fingerprint.lesson,
-        fingerprint.id,
-    );
-    let folder = etcetera::choose_base_strategy()
-        .ok()?
-        .cache_dir()
-        .join("lobe")
-        .join("pictures");
-    Some(folder.join(blake3::hash(content.as_bytes()).to_hex().as_str()))
-}
-
-fn read_cache(entry: &Path) -> Option<(Report, Vec<u8>)> {
-    let report = serde_json::from_slice(&fs::read(entry.with_extension("json")).ok()?).ok()?;
-    Some((report, fs::read(entry.with_extension("png")).ok()?))
-}
-
-/// A cache that cannot be written costs time only. The report comes last: with it the entry is
-/// whole.
-fn write_cache(entry: &Path, report: &Report, png: &[u8]) {
-    let _ = entry.parent().map(fs::create_dir_all);
-    if fs::write(entry.with_extension("png"), png).is_ok()
-        && let Ok(text) = serde_json::to_vec(report)
-    {
-        let _ = fs::write(entry.with_extension("json"), text);
-    }
 }

@@ -107,6 +107,8 @@ pub struct Lesson {
     pub tables: Vec<Table>,
     /// Plots.
     pub plots: Vec<Plot>,
+    /// Maps: a value over two quantities.
+    pub maps: Vec<Map>,
     /// Sentences that are numbers, checked and not shown.
     pub claims: Vec<Claim>,
     /// The exercises, in order.
@@ -317,6 +319,27 @@ pub struct Plot {
     pub series: Vec<Series>,
     /// Points with a name.
     pub marks: Vec<Mark>,
+}
+
+/// `[[map]]`: a value over two quantities, drawn as colours.
+#[derive(Clone, Debug)]
+pub struct Map {
+    /// Name, for references; it also names the file.
+    pub id: Text,
+    /// Heading.
+    pub title: Text,
+    /// Horizontal axis.
+    pub x: AxisX,
+    /// Vertical axis.
+    pub y: AxisX,
+    /// What the colours are, beside their bar.
+    pub value_label: Text,
+    /// What the colours mean.
+    pub scale: crate::map::Scale,
+    /// Numbers that are the same all over the map.
+    pub with: Vec<Given>,
+    /// What is drawn.
+    pub is: Formula,
 }
 
 /// The horizontal axis of a plot: a variable that runs.

@@ -11,6 +11,7 @@ pub mod finding;
 pub mod judge;
 pub mod lesson;
 pub mod load;
+pub mod map;
 pub mod opinion;
 pub mod plot;
 pub mod prose;

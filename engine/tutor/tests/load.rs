@@ -434,6 +434,54 @@ fn exercises_are_rich_enough() {
     );
 }
 
+#[test]
+fn maps_are_checked() {
+    check_edit(
+        "scale = \"log\", from = 0.25",
+        "scale = \"lag\", from = 0.25",
+        "\"lag\"",
+        "No scale is called",
+    );
+    check_edit(
+        "from = 0.25, to = 25.0",
+        "from = -1.0, to = 25.0",
+        "25.0",
+        "The scale runs from",
+    );
+    check_edit("to = 0.95", "to = 0.04", "0.04", "The axis runs");
+    check_edit(
+        "id = \"everywhere\"",
+        "id = \"ratio\"",
+        "",
+        "Another `[[plot]]` is already called `ratio`",
+    );
+    check_edit(
+        "is = \"0.25 / (n_dot_l * n_dot_v)\"",
+        "is = \"0.25 / (n_dot_l * n_dot_h)\"",
+        "n_dot_h",
+        "Unknown name",
+    );
+    check_edit(
+        "is = \"0.25 / (n_dot_l * n_dot_v)\"",
+        "is = \"sqrt(-n_dot_l * n_dot_v)\"",
+        "sqrt",
+        "The map has no values",
+    );
+}
+
+#[test]
+fn a_map_has_its_values_from_the_bottom() {
+    let lesson = load("complete.toml", COMPLETE).0.expect("a lesson");
+    let map = lesson.map("everywhere").expect("a map");
+    assert_eq!(map.values.len(), map.columns * map.columns);
+    let middle = |(from, to): (f64, f64), cell: f64| from + (to - from) * cell / 48.0;
+    let at = |column: f64, row: f64| 0.25 / (middle(map.y, row) * middle(map.x, column));
+    assert!((map.values[0] - at(0.5, 0.5)).abs() < 1e-12);
+    // One column to the right, on the uppermost row.
+    let upper = map.columns * (map.columns - 1) + 1;
+    assert!((map.values[upper] - at(1.5, 47.5)).abs() < 1e-12);
+}
+
 /// A file that is not even TOML tells its first errors, not one a line.
 #[track_caller]
 fn check_syntax(text: &str, message: &str) {

@@ -21,7 +21,10 @@ pub fn check(checker: &mut Checker<'_>) {
     let lesson = checker.lesson;
     slug(checker, &lesson.id);
     given_once(checker, lesson.tables.iter().map(|it| &it.id), "table");
-    given_once(checker, lesson.plots.iter().map(|it| &it.id), "plot");
+    // Plots and maps are files side by side: one may not take the other's name.
+    let drawn = lesson.plots.iter().map(|it| &it.id);
+    let drawn = drawn.chain(lesson.maps.iter().map(|it| &it.id));
+    given_once(checker, drawn, "plot");
     given_once(
         checker,
         lesson.fingerprints.iter().map(|it| &it.id),

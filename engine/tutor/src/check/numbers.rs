@@ -21,6 +21,9 @@ pub fn check(checker: &mut Checker<'_>) {
     for plot in &lesson.plots {
         check_plot(checker, plot);
     }
+    for map in &lesson.maps {
+        check_map(checker, map);
+    }
     for claim in &lesson.claims {
         check_claim(checker, claim);
     }
@@ -245,6 +248,21 @@ fn check_plot(checker: &mut Checker<'_>, plot: &crate::lesson::Plot) {
         }
         known.insert(plot.x.name.text.clone(), x);
         let _ = checker.value(&mark.is, &known);
+    }
+}
+
+fn check_map(checker: &mut Checker<'_>, map: &crate::lesson::Map) {
+    let known = values(&map.with);
+    let mut names: Vec<&str> = known.keys().map(String::as_str).collect();
+    names.extend([map.x.name.text.as_str(), map.y.name.text.as_str()]);
+    if !checker.expression(&map.is, &names) {
+        return;
+    }
+    // A coarse look is enough: a map of quadratures takes a while.
+    let cells = checker.lesson.cells(map, &known, 5);
+    if cells.iter().filter(|value| value.is_finite()).count() < 2 {
+        let message = "The map has no values to draw on these axes.".to_owned();
+        checker.error_in(&map.is.text, "nothing-to-draw", message);
     }
 }
 

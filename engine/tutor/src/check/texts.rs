@@ -131,6 +131,13 @@ fn tables_and_plots(checker: &mut Checker<'_>) {
             label(checker, text, &crate::plot::known_at(plot, own));
         }
     }
+    for map in &lesson.maps {
+        let known = values(&map.with);
+        prose(checker, &map.title, &known);
+        for text in [&map.x.label, &map.y.label, &map.value_label] {
+            label(checker, text, &known);
+        }
+    }
 }
 
 /// Some numbers that the exercise may draw, and its steps' values with them.

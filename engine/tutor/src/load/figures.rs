@@ -1,10 +1,11 @@
-//! Reading tables and plots.
+//! Reading tables, plots and maps.
 
 use formula::Digits;
 
 use super::each_some;
 use super::reader::{Table, place};
-use crate::lesson::{AxisX, AxisY, Column, Limit, Mark, Plot, Series, Text};
+use crate::lesson::{AxisX, AxisY, Column, Limit, Map, Mark, Plot, Series, Text};
+use crate::map::Scale;
 
 pub fn read_table(table: &Table<'_, '_>) -> crate::lesson::Table {
     let mut rows = Vec::new();
@@ -94,7 +95,55 @@ pub fn read_plot(table: &Table<'_, '_>) -> Plot {
             table.missing(axis, &format!("{axis} = {{ label = \"…\" }}"));
         }
     }
-    let x = table.table("x", "The plot's `x`").map(|x| {
+    let x = read_axis(table, "x", "The plot's `x`");
+    let y = table.table("y", "The plot's `y`").map(|y| {
+        let axis = AxisY {
+            label: y.need_text("label"),
+            log: y.bool("log").unwrap_or(false),
+            from: y.number("from"),
+            to: y.number("to"),
+        };
+        y.finish();
+        axis
+    });
+    let series = each_some(table, "series", "A series", |series| {
+        Some(Series {
+            label: series.need_text("label"),
+            with: series.givens("with"),
+            is: series.need_formula("is")?,
+        })
+    });
+    if series.is_empty() {
+        table.missing("series", "series = [{ label = \"…\", is = \"…\" }]");
+    }
+    Plot {
+        id: table.need_text("id"),
+        title: table.need_text("title"),
+        x,
+        y: y.unwrap_or_else(|| AxisY {
+            label: Text::default(),
+            log: false,
+            from: None,
+            to: None,
+        }),
+        with: table.givens("with"),
+        series,
+        marks: each_some(table, "mark", "A mark", |mark| {
+            let (label, with) = (mark.need_text("label"), mark.givens("with"));
+            let (x, is) = (mark.need_formula("x"), mark.need_formula("is"));
+            Some(Mark {
+                label,
+                with,
+                x: x?,
+                is: is?,
+            })
+        }),
+    }
+}
+
+/// An axis along which a variable runs.
+fn read_axis(table: &Table<'_, '_>, key: &'static str, what: &str) -> AxisX {
+    let axis = table.table(key, what).map(|x| {
         let need = |key: &'static str| {
             if !x.has(key) {
                 x.missing(key, &format!("{key} = 1.0"));
@@ -124,53 +173,71 @@ pub fn read_plot(table: &Table<'_, '_>) -> Plot {
         x.finish();
         axis
     });
-    let y = table.table("y", "The plot's `y`").map(|y| {
-        let axis = AxisY {
-            label: y.need_text("label"),
-            log: y.bool("log").unwrap_or(false),
-            from: y.number("from"),
-            to: y.number("to"),
-        };
-        y.finish();
-        axis
-    });
-    let series = each_some(table, "series", "A series", |series| {
-        Some(Series {
-            label: series.need_text("label"),
-            with: series.givens("with"),
-            is: series.need_formula("is")?,
-        })
-    });
-    if series.is_empty() {
-        table.missing("series", "series = [{ label = \"…\", is = \"…\" }]");
+    axis.unwrap_or_else(|| AxisX {
+        name: Text::default(),
+        from: 0.0,
+        to: 1.0,
+        label: Text::default(),
+        log: false,
+    })
+}
+
+pub fn read_map(table: &Table<'_, '_>) -> Option<Map> {
+    for axis in ["x", "y"] {
+        if !table.has(axis) {
+            let expected =
+                format!("{axis} = {{ name = \"…\", from = 0.0, to = 1.0, label = \"…\" }}");
+            table.missing(axis, &expected);
+        }
     }
-    Plot {
+    let axes = ["x", "y"].map(|key| read_axis(table, key, &format!("The map's `{key}`")));
+    if !table.has("value") {
+        table.missing("value", "value = { label = \"…\", from = 0.0, to = 1.0 }");
+    }
+    let value = table.table("value", "The map's `value`").map(|value| {
+        let label = value.need_text("label");
+        let (from, to) = (value.number("from"), value.number("to"));
+        let scale = match value.text("scale").as_deref() {
+            None | Some("linear") => Some(Scale::Linear(from.unwrap_or(0.0), to.unwrap_or(1.0))),
+            Some("log") => Some(Scale::Log(from.unwrap_or(0.01), to.unwrap_or(1.0))),
+            Some("ratio") => Some(Scale::Ratio),
+            Some(other) => {
+                let message = format!("No scale is called \"{other}\".");
+                value.wrong("scale", "unknown-scale", message, "linear, log or ratio");
+                None
+            }
+        };
+        if let Some(Scale::Linear(from, to) | Scale::Log(from, to)) = scale
+            && (from >= to || (matches!(scale, Some(Scale::Log(..))) && from <= 0.0))
+        {
+            let message =
+                "The scale runs from a number to a greater one, a logarithmic one from above 0.";
+            value.wrong(
+                "to",
+                "empty-range",
+                message.to_owned(),
+                "from = 0.01, to = 1.0",
+            );
+        }
+        value.finish();
+        (label, scale.unwrap_or(Scale::Ratio))
+    });
+    let (value_label, scale) = value.unwrap_or((Text::default(), Scale::Ratio));
+    let [x, y] = axes;
+    for (key, axis) in [("x", &x), ("y", &y)] {
+        if axis.log {
+            let message = "The axes of a map are linear.".to_owned();
+            table.wrong(key, "unknown-key", message, "no `log`");
+        }
+    }
+    Some(Map {
         id: table.need_text("id"),
         title: table.need_text("title"),
-        x: x.unwrap_or_else(|| AxisX {
-            name: Text::default(),
-            from: 0.0,
-            to: 1.0,
-            label: Text::default(),
-            log: false,
-        }),
-        y: y.unwrap_or_else(|| AxisY {
-            label: Text::default(),
-            log: false,
-            from: None,
-            to: None,
-        }),
+        x,
+        y,
+        value_label,
+        scale,
         with: table.givens("with"),
-        series,
-        marks: each_some(table, "mark", "A mark", |mark| {
-            let (label, with) = (mark.need_text("label"), mark.givens("with"));
-            let (x, is) = (mark.need_formula("x"), mark.need_formula("is"));
-            Some(Mark {
-                label,
-                with,
-                x: x?,
-                is: is?,
-            })
-        }),
-    }
+        is: table.need_formula("is")?,
+    })
 }

@@ -22,7 +22,7 @@ use crate::lesson::{
 };
 use crate::prose::plain_blocks;
 use crate::rubric::Rubric;
-use figures::{read_plot, read_table};
+use figures::{read_map, read_plot, read_table};
 use reader::{Source, Table, place};
 
 /// The only format there is so far.
@@ -131,6 +131,7 @@ fn read_lesson(table: &Table<'_, '_>) -> Lesson {
         sources: each_some(table, "source_says", "[[source_says]]", read_source),
         tables: each(table, "table", "[[table]]", read_table),
         plots: each(table, "plot", "[[plot]]", read_plot),
+        maps: each_some(table, "map", "[[map]]", read_map),
         claims: each_some(table, "claim", "[[claim]]", read_claim),
         exercises: each_some(table, "exercise", "[[exercise]]", |entry| {
             exercise::read(entry, worked.as_ref())
