@@ -15,6 +15,8 @@ use tutor::view::{Input, Saving, Stage, View};
 
 const SEED: u64 = 7;
 const SIZE: (u16, u16) = (100, 40);
+/// The file that the editor copies from.
+const MENDED: &str = "mended.wgsl";
 
 /// What a learner does on one screen.
 enum Deed {
@@ -28,6 +30,8 @@ enum Deed {
     Choose(usize),
     /// Puts items, by their places as shown, into this order.
     Sort(Vec<usize>),
+    /// Writes a shader in an editor, and runs it.
+    Mend(String),
     /// Marks every point as said.
     TickAll(usize),
 }
@@ -102,6 +106,7 @@ impl Learner {
             Input::Number { .. } => Deed::Line(self.number(session)),
             Input::Reply { .. } => Deed::Line(self.reply(session)),
             Input::Text { .. } => Deed::Explain(self.explanation(session)),
+            Input::Code { .. } => Deed::Mend(self.solution(session)),
             Input::Choice { options } => {
                 let right = (0..options.len()).find(|at| {
                     attempt(session, &(at + 1).to_string())
@@ -153,6 +158,14 @@ impl Learner {
         pass.expect("an example that passes").text.trim().to_owned()
     }
 
+    fn solution(&self, session: &Session) -> String {
+        let key = &session.screen().key;
+        let item = key.strip_prefix("practice:").expect("an exercise");
+        let exercise = self.lesson.exercise(item).expect("an exercise");
+        let task = tutor::exercise::shader::task(exercise).expect("a shader");
+        task.solution.trim_end().to_owned()
+    }
+
     fn right_order(&self, session: &Session) -> Vec<usize> {
         let (item, _, seed, _) = attempt(session, "1").expect("an answer is an attempt");
         let exercise = self
@@ -190,6 +203,16 @@ impl Learner {
     fn act(&mut self, deed: Deed) {
         let before = self.record().map_or(0, |record| entries(&record));
         let answered_before = self.record().map_or(0, |record| answers(&record).len());
+        if let Deed::Mend(text) = &deed {
+            // The editor is one that copies.
+            fs::write(self.home.path().join(MENDED), text).expect("a file");
+            self.terminal.send("\x0f");
+            common::wait_for("the draft", || {
+                let record = self.record()?;
+                let last = &record.entries.last()?.event;
+                matches!(last, Event::Draft { text: draft, .. } if draft == text).then_some(())
+            });
+        }
         let terminal = &mut self.terminal;
         match &deed {
             // To the end of the page first: what is not read yet is not left.
@@ -197,6 +220,7 @@ impl Learner {
             Deed::Line(text) => terminal.send(&format!("{text}\r")),
             // Pasted, as line breaks are text there.
             Deed::Explain(text) => terminal.send(&format!("\x1b[200~{text}\x1b[201~\x13")),
+            Deed::Mend(_) => terminal.send("\x13"),
             Deed::Choose(at) => terminal.send(&format!("{}\r", at + 1)),
             Deed::Sort(places) => terminal.send(&sorting(places)),
             Deed::TickAll(count) => terminal.send(&format!("{}\r", "y".repeat(*count))),
@@ -205,7 +229,7 @@ impl Learner {
             entries(record) > before
                 && match &deed {
                     Deed::GoOn => true,
-                    Deed::Line(text) | Deed::Explain(text) => {
+                    Deed::Line(text) | Deed::Explain(text) | Deed::Mend(text) => {
                         answers(record).iter().any(|it| it.trim() == text.trim())
                     }
                     Deed::Choose(_) | Deed::Sort(_) => answers(record).len() > answered_before,
@@ -225,7 +249,7 @@ impl Learner {
         common::wait_for("the log", || {
             self.record().filter(|record| answered(record))
         });
-        if let Deed::Line(text) | Deed::Explain(text) = deed {
+        if let Deed::Line(text) | Deed::Explain(text) | Deed::Mend(text) = deed {
             self.given.push(text);
         }
     }
@@ -254,10 +278,12 @@ impl Learner {
 fn start(home: &Path, lesson: &str) -> Terminal {
     let progress = home.join("progress").display().to_string();
     let seed = SEED.to_string();
-    Terminal::start(
+    let editor = format!("cp {}", home.join(MENDED).display());
+    Terminal::start_with(
         home,
         SIZE,
         &["learn", lesson, "--seed", &seed, "--progress", &progress],
+        &[("EDITOR", &editor), ("LOBE_PICTURES", "halfblocks")],
     )
 }
 

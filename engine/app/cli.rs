@@ -60,6 +60,9 @@ pub enum Command {
     Stress(Stress),
     /// Say what this machine offers: adapter, terminal graphics, colours, folders
     Doctor(Json),
+    /// Run a shader given on standard input; this program starts itself so
+    #[command(hide = true, name = crate::shaders::COMMAND)]
+    RunShader,
 }
 
 #[derive(Clone, Debug, Default, Args)]
@@ -168,7 +171,7 @@ pub struct Mark {
     /// Seed of the draw
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub seed: u64,
-    /// What the learner typed
+    /// What the learner typed; of a shader the whole text, or @FILE
     #[arg(long, value_name = "TEXT", allow_hyphen_values = true)]
     pub answer: String,
     /// The step that was answered (else the result)

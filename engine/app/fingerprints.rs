@@ -2,10 +2,21 @@
 
 use renders::{Eye, Fingerprint, Light, RADIUS, Scene, Visibility};
 use tutor::Lesson;
-use tutor::lesson::SceneLight;
+use tutor::lesson::{Given, SceneLight};
 use tutor::prose::{Block, Inline, TableView, plain};
 
 use crate::text;
+
+/// What a picture shows: a fingerprint of the lesson, or the ball of a learner's own shader.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Subject {
+    /// Id of the lesson.
+    pub lesson: String,
+    /// Id of the fingerprint, or of the exercise.
+    pub id: String,
+    /// The learner's text.
+    pub own: Option<String>,
+}
 
 /// The fingerprint of that id, ready to draw.
 pub fn fingerprint<'a>(lesson: &'a Lesson, id: &'a str) -> Option<Fingerprint<'a>> {
@@ -25,7 +36,7 @@ pub fn fingerprint<'a>(lesson: &'a Lesson, id: &'a str) -> Option<Fingerprint<'a
         library: &lesson.library,
         right: &entry.right.expr,
         wrong: &entry.wrong.expr,
-        scene: scene(entry),
+        scene: scene(&entry.scene, &entry.lights),
     })
 }
 
@@ -44,8 +55,8 @@ pub fn figure(seen: &Visibility, name: &str) -> Option<f64> {
     })
 }
 
-fn scene(entry: &tutor::lesson::Fingerprint) -> Scene {
-    let mut others = tutor::lesson::values(&entry.scene);
+fn scene(given: &[Given], lights: &[SceneLight]) -> Scene {
+    let mut others = tutor::lesson::values(given);
     let mut take = |name: &str| others.remove(name);
     let (roughness, f0) = (take("roughness"), take("f0"));
     let only = Light::distant(take("light_deg").unwrap_or(60.0));
@@ -61,7 +72,7 @@ fn scene(entry: &tutor::lesson::Fingerprint) -> Scene {
         roughness: roughness.unwrap_or(0.5),
         f0: f0.unwrap_or(0.04),
         eye: eye.map_or(Eye::Orthographic, |distance| Eye::Perspective { distance }),
-        lights: match entry.lights.as_slice() {
+        lights: match lights {
             [] => vec![only],
             lights => lights.iter().map(light).collect(),
         },
@@ -70,14 +81,36 @@ fn scene(entry: &tutor::lesson::Fingerprint) -> Scene {
     }
 }
 
+/// The ball of a shader exercise, right and wrong alike, for a learner's own to be put in.
+pub fn own_fingerprint<'a>(lesson: &'a Lesson, id: &'a str) -> Option<Fingerprint<'a>> {
+    let task = tutor::exercise::shader::task(lesson.exercise(id)?)?;
+    Some(Fingerprint {
+        lesson: &lesson.id.text,
+        id,
+        title: String::new(),
+        caption: String::new(),
+        library: &lesson.library,
+        right: &task.is.expr,
+        wrong: &task.is.expr,
+        scene: scene(&task.scene, &[]),
+    })
+}
+
 /// What the picture shows along the equator of the sphere, for those who do not see it.
 pub fn profile_table(lesson: &Lesson, id: &str) -> Option<TableView> {
-    const ROWS: usize = 9;
-    let points = renders::profile(&fingerprint(lesson, id)?, ROWS);
+    let points = renders::profile(&fingerprint(lesson, id)?, PROFILE_ROWS);
+    table_of(&points, "buggy")
+}
+
+/// Rows of a profile that is read.
+pub const PROFILE_ROWS: usize = 9;
+
+/// Points along the equator as a table; `second` is what the wrong one is called.
+pub fn table_of(points: &[renders::ProfilePoint], second: &str) -> Option<TableView> {
     if points.is_empty() {
         return None;
     }
-    let header = ["across the ball", "N·L", "N·V", "correct", "buggy", "ratio"];
+    let header = ["across the ball", "N·L", "N·V", "correct", second, "ratio"];
     let rows = points
         .iter()
         .map(|point| {

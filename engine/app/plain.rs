@@ -16,6 +16,7 @@ use tutor::view::{Input, Saving, Stage, View};
 use crate::exit::{Done, Failure};
 use crate::fingerprints::profile_table;
 use crate::output;
+use crate::shaders;
 use crate::sitting::{Request, Sitting};
 use crate::store::Store;
 use crate::text;
@@ -40,6 +41,7 @@ pub fn run(sitting: Sitting, store: &Store) -> Result<Done, Failure> {
         told: true,
         said_unsaved: false,
         editor: None,
+        asked: false,
     };
     let result = plain.converse(&incoming());
     plain.part(store, result)
@@ -56,6 +58,8 @@ struct Plain {
     said_unsaved: bool,
     /// Lines of the explanation being typed.
     editor: Option<Vec<String>>,
+    /// What is asked was just said.
+    asked: bool,
 }
 
 /// How the conversation ended.
@@ -84,6 +88,7 @@ impl Plain {
                 }
             }
             self.wait_for_opinion()?;
+            self.sitting.finish_run();
             self.sitting.settle();
         }
     }
@@ -131,6 +136,7 @@ impl Plain {
                 return Ok(false);
             }
             _ if matches!(view.input, Input::Text { .. }) => return self.take_text(line),
+            _ if matches!(view.input, Input::Code { .. }) => return self.take_code(line),
             "" => Msg::Next,
             _ if command.starts_with(':') => {
                 output::line(&format!(
@@ -189,6 +195,60 @@ impl Plain {
         Ok(self.tell(Msg::Draft(draft)))
     }
 
+    /// A line of a shader. Lines typed stand for the whole text; `:7 …` changes one line of it;
+    /// a line of one `.` runs it.
+    fn take_code(&mut self, line: &str) -> Result<bool, Failure> {
+        let Input::Code { text, .. } = &self.sitting.view().input else {
+            return Ok(false);
+        };
+        let text = text.clone();
+        let command = line.trim();
+        if command == "." {
+            let typed = self.editor.take().map(|lines| lines.join("\n"));
+            return Ok(self.tell(Msg::Answer(typed.unwrap_or(text))));
+        }
+        if command == ":edit" {
+            let text = self.editor.as_ref().map_or(text, |lines| lines.join("\n"));
+            return match crate::editor::edit(&text) {
+                Ok(edited) => {
+                    self.editor = None;
+                    Ok(self.tell(Msg::Answer(edited.trim_end().to_owned())))
+                }
+                Err(why) => {
+                    print(&text::wrap_plain(&why, WIDTH, "! ", "  "))?;
+                    Ok(false)
+                }
+            };
+        }
+        if command == ":show" {
+            let text = self.editor.as_ref().map_or(text, |lines| lines.join("\n"));
+            print(&numbered(&text))?;
+            self.asked = true;
+            return Ok(false);
+        }
+        if let Some(rest) = command.strip_prefix(':') {
+            let digits = rest.len() - rest.trim_start_matches(|c: char| c.is_ascii_digit()).len();
+            let text = self.editor.as_ref().map_or(text, |lines| lines.join("\n"));
+            self.asked = true;
+            match with_line(&text, &rest[..digits], rest[digits..].trim_start()) {
+                Some((changed, shown)) => {
+                    self.editor = None;
+                    output::line(&shown)?;
+                    return Ok(self.tell(Msg::Draft(changed)));
+                }
+                None => {
+                    output::line("! :7 TEXT changes line 7; a line of one `.` runs the whole.")?;
+                    return Ok(false);
+                }
+            }
+        }
+        if command.is_empty() && self.editor.is_none() {
+            return Ok(self.tell(Msg::Next));
+        }
+        self.editor.get_or_insert_default().push(line.to_owned());
+        Ok(false)
+    }
+
     /// Leaving an explanation half written: what there is was kept line by line.
     fn keep_draft(&mut self) {
         self.editor = None;
@@ -224,7 +284,7 @@ impl Plain {
             print(&text::wrap_plain(note, WIDTH, "! ", "  "))?;
         }
         self.print_unsaved(&view)?;
-        if self.editor.is_none() {
+        if self.editor.is_none() && !std::mem::take(&mut self.asked) {
             self.ask(&view, same_screen)?;
         }
         if !self.echo {
@@ -296,6 +356,19 @@ impl Plain {
                     lines.extend(draft.lines().map(|line| format!("| {line}")));
                     self.editor = Some(draft.split('\n').map(str::to_owned).collect());
                 }
+            }
+            Input::Code { label, note, text } => {
+                lines.extend(text::wrap_plain(
+                    &format!("fn {label} ({}):", note.replace('`', "")),
+                    WIDTH,
+                    "",
+                    "  ",
+                ));
+                lines.extend(numbered(text));
+                lines.push(
+                    "[Change a line: `:7 TEXT`; or type it anew, or `:edit` opens your".into(),
+                );
+                lines.push(" editor. A line of one `.` runs it.]".into());
             }
             Input::Choice { options } => {
                 for (index, option) in options.iter().enumerate() {
@@ -403,10 +476,38 @@ fn help(view: &View) -> Result<(), Failure> {
         ":quit  save and leave; the same command comes back here",
     );
     say(
+        matches!(view.input, Input::Code { .. }),
+        ":7 TEXT changes line 7 of the shader; :show prints it, :edit opens your editor",
+    );
+    say(
         matches!(view.input, Input::Number { .. }),
         "Numbers: 0.56, 5.6e-1, 0,56 or arithmetic such as 0.4^4, 1/pi.",
     );
     print(&lines)
+}
+
+/// A text with the numbers of its lines.
+fn numbered(text: &str) -> Vec<String> {
+    let lines = text.trim_end().lines().enumerate();
+    lines
+        .map(|(index, line)| {
+            format!("    {:>2} | {line}", index + 1)
+                .trim_end()
+                .to_owned()
+        })
+        .collect()
+}
+
+/// A text with one line changed, its indentation kept where none is typed, and that line as it
+/// is now.
+fn with_line(text: &str, number: &str, new: &str) -> Option<(String, String)> {
+    let index = number.parse::<usize>().ok()?.checked_sub(1)?;
+    let mut lines: Vec<String> = text.trim_end().lines().map(str::to_owned).collect();
+    let old = lines.get_mut(index)?;
+    let indent: String = old.chars().take_while(|letter| *letter == ' ').collect();
+    *old = format!("{indent}{new}").trim_end().to_owned();
+    let shown = format!("    {:>2} | {old}", index + 1);
+    Some((lines.join("\n"), shown))
 }
 
 /// "y", "n", "2 y".
@@ -434,8 +535,14 @@ struct Profiles<'a> {
 }
 
 impl text::Describe for Profiles<'_> {
-    fn picture(&self, lesson: &str, id: &str) -> Option<TableView> {
-        (lesson == self.lesson.id.text).then(|| profile_table(self.lesson, id))?
+    fn picture(&self, lesson: &str, id: &str, own: Option<&str>) -> Option<TableView> {
+        if lesson != self.lesson.id.text {
+            return None;
+        }
+        match own {
+            None => profile_table(self.lesson, id),
+            Some(source) => shaders::profile(self.lesson, id, source),
+        }
     }
 }
 

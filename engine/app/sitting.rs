@@ -1,9 +1,12 @@
 //! A session with its log: messages go in, effects are carried out, events are saved.
 
 use std::sync::Arc;
+use std::sync::mpsc::{self, Receiver, TryRecvError};
+use std::thread;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use tutor::Lesson;
+use tutor::exercise::shader::Ran;
 use tutor::record::Record;
 use tutor::session::{Effect, Event, Msg, Session, Start, progress};
 use tutor::view::View;
@@ -38,6 +41,8 @@ pub struct Sitting {
     session: Session,
     writer: Writer,
     last_event: Instant,
+    /// A shader that runs.
+    running: Option<Receiver<Ran>>,
     /// Whether this goes on with an earlier session.
     pub resumed: bool,
     /// What the learner should know before the lesson starts.
@@ -128,6 +133,7 @@ impl Sitting {
             session,
             writer,
             last_event: Instant::now(),
+            running: None,
             resumed: true,
             notices,
             judge: None,
@@ -159,6 +165,7 @@ impl Sitting {
             session,
             writer,
             last_event: Instant::now(),
+            running: None,
             resumed: false,
             notices,
             judge: None,
@@ -270,6 +277,12 @@ impl Sitting {
                 self.asked.pop();
                 None
             }
+            Effect::Run(job) => {
+                let (send, ran) = mpsc::channel();
+                thread::spawn(move || send.send(crate::shaders::run(*job)));
+                self.running = Some(ran);
+                None
+            }
             Effect::Quit => Some(Request::Leave),
         }
     }
@@ -281,16 +294,42 @@ impl Sitting {
         self.writer.append(now(), took_ms, event);
     }
 
-    /// Passes on what became of the log. True where the screen changed.
+    /// Passes on what became of the log, and of a shader. True where the screen changed.
     pub fn collect(&mut self) -> bool {
         let opinions = self.collect_opinions();
+        let ran = self.running.as_ref().map(Receiver::try_recv);
+        let ran = match ran {
+            None | Some(Err(TryRecvError::Empty)) => false,
+            Some(Ok(ran)) => self.has_run(ran),
+            Some(Err(TryRecvError::Disconnected)) => self.has_run(lost()),
+        };
         match self.writer.news() {
             Some(news) => {
                 self.pass_on(news);
                 true
             }
-            None => opinions,
+            None => opinions || ran,
         }
+    }
+
+    fn has_run(&mut self, ran: Ran) -> bool {
+        self.running = None;
+        // What came of a shader asks for nothing but to be saved.
+        let _ = self.tell(Msg::Ran(ran));
+        true
+    }
+
+    /// Waits for the shader that runs, if one does; it has a limit of its own.
+    pub fn finish_run(&mut self) {
+        if let Some(running) = &self.running {
+            let ran = running.recv().unwrap_or_else(|_| lost());
+            self.has_run(ran);
+        }
+    }
+
+    /// Whether a shader runs.
+    pub fn is_running(&self) -> bool {
+        self.running.is_some()
     }
 
     /// Waits until everything is saved, or known not to be.
@@ -324,6 +363,11 @@ impl Sitting {
         }
         self.writer.close()
     }
+}
+
+/// The thread that waited for a shader broke down.
+fn lost() -> Ran {
+    Ran::Unable("what ran it broke down".to_owned())
 }
 
 /// The time, as logs keep it.

@@ -314,8 +314,8 @@ pub fn short(value: f64) -> String {
 
 /// Says the numbers of a picture in place of drawing it.
 pub trait Describe {
-    /// The profile of a fingerprint as a table.
-    fn picture(&self, lesson: &str, id: &str) -> Option<TableView>;
+    /// The profile of a fingerprint, or of a learner's own shader, as a table.
+    fn picture(&self, lesson: &str, id: &str, own: Option<&str>) -> Option<TableView>;
 }
 
 /// A block as plain lines, none wider than `width` unless it is code.
@@ -346,10 +346,11 @@ pub fn plain(block: &Block, width: usize, describe: &dyn Describe) -> Vec<String
             id,
             title,
             caption,
+            own,
         } => {
             let mut lines = wrap_plain(&format!("Picture: {title}"), width, "", "");
             lines.extend(paragraph(caption));
-            if let Some(table) = describe.picture(lesson, id) {
+            if let Some(table) = describe.picture(lesson, id, own.as_deref()) {
                 lines.push(String::new());
                 lines.extend(plain_table(&table, width));
             }

@@ -1,6 +1,7 @@
 //! Both formulas on the CPU, in f64 or f32, a block of points at a time.
 
 use crate::error::Error;
+use crate::own::Own;
 use crate::plan::{Plan, inputs, settled};
 use crate::sample::{Input, Samples};
 use crate::shade::Values;
@@ -23,6 +24,8 @@ pub(crate) struct Cpu {
     second_is_ratio: bool,
     constants: Vec<f64>,
     precision: Precision,
+    /// What stands for the wrong formula, and where its parameters stand among the inputs.
+    own: Option<(Own, Vec<usize>)>,
 }
 
 impl Cpu {
@@ -52,6 +55,8 @@ impl Cpu {
         };
         let (right, second) = (folded(right), folded(plan.ratio.as_ref().unwrap_or(wrong)));
         let program = library.compile_all(&[&right, &second], &inputs);
+        let own = plan.own.clone();
+        let own = own.map(|own| own.places(&inputs).map(|places| (own, places)));
         Ok(Self {
             program: program.map_err(|error| Error::Formula {
                 which: "wrong",
@@ -59,7 +64,11 @@ impl Cpu {
             })?,
             second_is_ratio: plan.ratio.is_some(),
             constants: constants.iter().map(|(_, value)| *value).collect(),
-            precision,
+            precision: match own {
+                None => precision,
+                Some(_) => Precision::F64,
+            },
+            own: own.transpose()?,
         })
     }
 
@@ -90,6 +99,9 @@ impl Cpu {
         let constants = self.constants.iter().map(|&value| Column::Uniform(value));
         let columns: Vec<Column<'_, f64>> = columns.chain(constants).collect();
         self.program.eval_blocks_f64(&columns, &mut outs, scratch);
+        if let Some((own, places)) = &self.own {
+            own.evaluate(places, &columns, outs[1]);
+        }
     }
 
     /// The same with every operation in f32.

@@ -26,6 +26,7 @@ mod gpu;
 mod label;
 mod look;
 mod map;
+mod own;
 mod pen;
 mod picture;
 mod plan;
@@ -47,6 +48,7 @@ pub use error::Error;
 pub use gpu::GpuFormulas;
 pub use look::{Look, Spot, look};
 pub use map::{MapSpec, Scale, map_png};
+pub use own::{Own, profile_own, render_own};
 pub use profile::{ProfilePoint, point_at, profile};
 pub use scene::{Eye, Light, RADIUS, Scene};
 pub use visibility::Visibility;
@@ -248,8 +250,17 @@ pub fn render(
     options: &Options,
     cancel: &AtomicBool,
 ) -> Result<Picture, Error> {
-    let start = Instant::now();
     let plan = Plan::of(fingerprint, options.skip);
+    render_planned(fingerprint, plan, options, cancel)
+}
+
+fn render_planned(
+    fingerprint: &Fingerprint<'_>,
+    plan: Plan,
+    options: &Options,
+    cancel: &AtomicBool,
+) -> Result<Picture, Error> {
+    let start = Instant::now();
     // The figures are in f64, whatever draws the panels.
     let cpu = Cpu::new(fingerprint, &plan, Precision::F64)?;
     let profile = Profile::of(fingerprint, &cpu);

@@ -1,6 +1,7 @@
 //! What of a picture must be computed: decided from the formulas, before anything is.
 
 use crate::Fingerprint;
+use crate::own::Own;
 use crate::scene::{VARYING, column};
 use formula::{Expr, Node, Program};
 use std::collections::BTreeSet;
@@ -25,6 +26,8 @@ pub(crate) struct Plan {
     /// `wrong / right` after what both have in common has cancelled: the wrong value is then the
     /// right one times this.
     pub ratio: Option<Expr>,
+    /// What stands for the wrong formula, where that is none.
+    pub own: Option<Own>,
     /// Calls evaluated at every point.
     pub evaluated: Vec<String>,
     /// Calls that are not, each with the reason.

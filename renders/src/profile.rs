@@ -31,7 +31,16 @@ pub struct ProfilePoint {
 ///
 /// Empty where a formula cannot be evaluated in this scene.
 pub fn profile(fingerprint: &Fingerprint<'_>, samples: usize) -> Vec<ProfilePoint> {
-    match Cpu::new(fingerprint, &Plan::of(fingerprint, true), Precision::F64) {
+    planned(fingerprint, &Plan::of(fingerprint, true), samples)
+}
+
+/// The same by a plan.
+pub(crate) fn planned(
+    fingerprint: &Fingerprint<'_>,
+    plan: &Plan,
+    samples: usize,
+) -> Vec<ProfilePoint> {
+    match Cpu::new(fingerprint, plan, Precision::F64) {
         Ok(cpu) => along(&Probe::new(fingerprint, &cpu), samples),
         Err(_) => Vec::new(),
     }

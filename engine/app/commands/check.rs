@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use std::io::{self, IsTerminal as _};
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
-use tutor::check::{DrawCount, Report};
+use tutor::check::{DrawCount, Report, shaders};
 use tutor::{Finding, Severity};
 
 use crate::cli::{Check, Folders, Format};
@@ -57,6 +57,10 @@ fn report(shelf: &Shelf, whole: bool) -> Report {
             })
     };
     findings.extend(computed.findings);
+    // What a lesson's shaders compute is known when they ran.
+    for run in shelf.lessons().flat_map(|lesson| shaders::runs(lesson)) {
+        findings.extend(run.finding(&crate::shaders::run(run.job.clone())));
+    }
     let place = |finding: &Finding| {
         shelf
             .files

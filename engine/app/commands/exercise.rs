@@ -50,6 +50,10 @@ fn human(exercise: &Exercise, drawn: &Draw) -> Result<(), Failure> {
     for (index, shown) in drawn.shown.iter().enumerate() {
         output::line(&format!("  {}. {shown}", index + 1))?;
     }
+    if let Some(task) = tutor::exercise::shader::task(exercise) {
+        output::line("")?;
+        output::line(task.source.trim_end())?;
+    }
     output::line("")?;
     for step in &drawn.steps {
         output::line(&format!("{} = {}", step.ask, step.truth))?;

@@ -15,6 +15,7 @@ mod progress;
 mod regrade;
 mod render;
 mod review;
+mod run_shader;
 mod stress;
 mod transcript;
 
@@ -49,6 +50,7 @@ pub fn run(cli: Cli) -> Result<Done, Failure> {
         Some(Command::Bench(args)) => bench::run(&args),
         Some(Command::Stress(args)) => stress::run(&args),
         Some(Command::Doctor(args)) => doctor::run(folders, args),
+        Some(Command::RunShader) => run_shader::run(),
     }
 }
 

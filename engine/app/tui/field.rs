@@ -1,6 +1,6 @@
 //! What the learner types or arranges into, one widget for each kind of input.
 
-use ratatui_textarea::{CursorMove, Input as Edit, TextArea, WrapMode};
+use ratatui_textarea::{CursorMove, Input as Edit, Key, TextArea, WrapMode};
 use tutor::view::Input;
 
 use super::keys::Focus;
@@ -10,9 +10,15 @@ pub enum Field {
     None,
     Line(Box<TextArea<'static>>),
     Editor(Box<TextArea<'static>>),
-    Choice { at: usize },
+    /// The text of a shader.
+    Code(Box<TextArea<'static>>),
+    Choice {
+        at: usize,
+    },
     Order(Order),
-    Checklist { at: usize },
+    Checklist {
+        at: usize,
+    },
 }
 
 /// Items being put in order.
@@ -31,6 +37,7 @@ impl Field {
             Input::Number { .. } => Self::Line(Box::new(line(""))),
             Input::Reply { draft, .. } => Self::Line(Box::new(reply(draft))),
             Input::Text { draft, .. } => Self::Editor(Box::new(editor(draft))),
+            Input::Code { text, .. } => Self::Code(Box::new(code(text))),
             Input::Choice { .. } => Self::Choice { at: 0 },
             Input::Order { items } => Self::Order(Order {
                 places: (0..items.len()).collect(),
@@ -41,12 +48,19 @@ impl Field {
         }
     }
 
+    /// The field of a shader with another text in it.
+    pub fn of_code(text: &str) -> Self {
+        Self::Code(Box::new(code(
+            &text.replace("\r\n", "\n").replace('\t', "    "),
+        )))
+    }
+
     /// Who gets the keys while this field is used.
     pub fn focus(&self) -> Focus {
         match self {
             Self::None => Focus::Page,
             Self::Line(_) => Focus::Line,
-            Self::Editor(_) => Focus::Editor,
+            Self::Editor(_) | Self::Code(_) => Focus::Editor,
             Self::Choice { .. } | Self::Order(_) | Self::Checklist { .. } => Focus::Options,
         }
     }
@@ -54,7 +68,9 @@ impl Field {
     /// What stands in a text field.
     pub fn text(&self) -> Option<String> {
         match self {
-            Self::Line(area) | Self::Editor(area) => Some(area.lines().join("\n")),
+            Self::Line(area) | Self::Editor(area) | Self::Code(area) => {
+                Some(area.lines().join("\n"))
+            }
             _ => None,
         }
     }
@@ -63,6 +79,16 @@ impl Field {
     pub fn edit(&mut self, key: Edit) -> bool {
         match self {
             Self::Line(area) | Self::Editor(area) => area.input(key),
+            Self::Code(area) => {
+                let begins = matches!(key.key, Key::Enter);
+                let indent = begins.then(|| indent_at(area));
+                let changed = area.input(key);
+                // A new line begins below the one before.
+                if let Some(indent) = indent.filter(|indent| !indent.is_empty()) {
+                    area.insert_str(indent);
+                }
+                changed
+            }
             _ => false,
         }
     }
@@ -74,7 +100,7 @@ impl Field {
             Self::Line(area) => {
                 area.insert_str(text.replace('\n', " ").trim());
             }
-            Self::Editor(area) => {
+            Self::Editor(area) | Self::Code(area) => {
                 area.insert_str(text);
             }
             _ => {}
@@ -139,6 +165,27 @@ fn editor(draft: &str) -> TextArea<'static> {
     area.move_cursor(CursorMove::Bottom);
     area.move_cursor(CursorMove::End);
     area
+}
+
+/// Lines as they are, the first one first.
+fn code(text: &str) -> TextArea<'static> {
+    let lines = text.trim_end().split('\n').map(str::to_owned).collect();
+    let mut area = TextArea::new(lines);
+    area.set_cursor_line_style(ratatui::style::Style::new());
+    area.set_line_number_style(ratatui::style::Style::new().dim());
+    area.set_max_histories(500);
+    area
+}
+
+/// The spaces that the line under the cursor begins with.
+fn indent_at(area: &TextArea<'_>) -> String {
+    let (row, column) = (area.cursor().0, area.cursor().1);
+    let line = area.lines().get(row).map_or("", String::as_str);
+    let spaces = line
+        .chars()
+        .take(column)
+        .take_while(|letter| *letter == ' ');
+    spaces.collect()
 }
 
 #[cfg(test)]

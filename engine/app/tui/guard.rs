@@ -34,13 +34,25 @@ impl Guard {
     pub fn take() -> io::Result<(Self, Screen)> {
         give_back_on_panic();
         give_back_on_signals();
-        enable_raw_mode()?;
-        TAKEN.store(true, Ordering::SeqCst);
+        take()?;
         let guard = Self(());
-        execute!(stdout(), EnterAlternateScreen, EnableBracketedPaste)?;
         let screen = Terminal::new(CrosstermBackend::new(stdout()))?;
         Ok((guard, screen))
     }
+
+    /// Gives the terminal back for as long as something else needs it.
+    pub fn lend<T>(&self, to: impl FnOnce() -> T) -> io::Result<T> {
+        give_back();
+        let done = to();
+        take()?;
+        Ok(done)
+    }
+}
+
+fn take() -> io::Result<()> {
+    enable_raw_mode()?;
+    TAKEN.store(true, Ordering::SeqCst);
+    execute!(stdout(), EnterAlternateScreen, EnableBracketedPaste)
 }
 
 impl Drop for Guard {

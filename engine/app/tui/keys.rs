@@ -43,6 +43,8 @@ pub enum Action {
     Leave,
     /// Hand in what the editor holds.
     HandIn,
+    /// The text in the learner's own editor.
+    OpenEditor,
     /// Tick, grab.
     Toggle,
     /// An option by its letter or number, from 0.
@@ -126,6 +128,7 @@ fn of_editor(key: KeyEvent) -> Action {
     let alt = key.modifiers.contains(KeyModifiers::ALT);
     match key.code {
         KeyCode::Char('s' | 'd') if control => Action::HandIn,
+        KeyCode::Char('o') if control => Action::OpenEditor,
         KeyCode::Enter if control || alt => Action::HandIn,
         KeyCode::Esc => Action::Leave,
         KeyCode::Tab | KeyCode::BackTab => Action::NextFocus,

@@ -24,6 +24,8 @@ pub enum Flow {
     Stay,
     /// The lesson is left, or at its end.
     Leave,
+    /// The text in the field is wanted in the learner's own editor.
+    OpenEditor,
 }
 
 /// The state of the screen; drawing takes a shared reference.
@@ -107,7 +109,7 @@ impl LessonScreen {
     /// How long the loop may sleep, where something waits to be done here.
     pub fn wakes_in(&self) -> Option<Duration> {
         const SAVING: Duration = Duration::from_millis(10);
-        if self.sitting.is_saving() {
+        if self.sitting.is_saving() || self.sitting.is_running() {
             return Some(SAVING);
         }
         let draft = self
@@ -150,6 +152,8 @@ impl LessonScreen {
             Action::Quit | Action::QuitAll => return self.leave(),
             Action::Enter => return self.enter(),
             Action::HandIn => return self.hand_in(),
+            Action::OpenEditor if matches!(self.field, Field::Code(_)) => return Flow::OpenEditor,
+            Action::OpenEditor => {}
             Action::Back => return self.send_if(self.shown.can.back, Msg::Back),
             Action::Skip => return self.send_if(self.shown.can.skip, Msg::Skip),
             Action::Hint => return self.send_if(self.shown.can.hint.is_some(), Msg::Hint),
@@ -214,12 +218,30 @@ impl LessonScreen {
 
     fn hand_in(&mut self) -> Flow {
         match &self.field {
-            Field::Editor(_) => {
+            Field::Editor(_) | Field::Code(_) => {
                 let text = self.field.text().unwrap_or_default();
                 self.typed = None;
                 self.send(Msg::Answer(text.trim_end().to_owned()))
             }
             _ => Flow::Stay,
+        }
+    }
+
+    /// The text that an editor is to open.
+    pub fn text_to_edit(&self) -> Option<String> {
+        self.field.text()
+    }
+
+    /// Takes over what came back from an editor, or says why nothing did.
+    pub fn take_over(&mut self, edited: Result<String, String>) {
+        match edited {
+            Ok(text) => {
+                self.field = Field::of_code(&text);
+                self.typed = Some(Instant::now());
+                self.save_draft();
+                self.refresh();
+            }
+            Err(why) => self.greeting = vec![why],
         }
     }
 
@@ -310,7 +332,10 @@ impl LessonScreen {
     /// Hands the text over that was not handed in, so that leaving keeps it.
     pub fn save_draft(&mut self) {
         if self.typed.take().is_some()
-            && matches!(self.shown.input, Input::Text { .. } | Input::Reply { .. })
+            && matches!(
+                self.shown.input,
+                Input::Text { .. } | Input::Reply { .. } | Input::Code { .. }
+            )
         {
             let text = self.field.text().unwrap_or_default();
             // A draft asks for nothing but to be saved.
@@ -360,7 +385,8 @@ impl LessonScreen {
 fn same_input(a: &Input, b: &Input) -> bool {
     match (a, b) {
         (Input::Text { label: a, .. }, Input::Text { label: b, .. })
-        | (Input::Reply { label: a, .. }, Input::Reply { label: b, .. }) => a == b,
+        | (Input::Reply { label: a, .. }, Input::Reply { label: b, .. })
+        | (Input::Code { label: a, .. }, Input::Code { label: b, .. }) => a == b,
         (Input::Checklist { points: a }, Input::Checklist { points: b }) => a
             .iter()
             .map(|point| &point.text)

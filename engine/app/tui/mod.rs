@@ -104,7 +104,7 @@ impl App<'_> {
         let broken = |error: std::io::Error| {
             Failure::unusable(format!("the terminal gave up: {}", plain_reason(&error)))
         };
-        let (_guard, mut terminal) = Guard::take().map_err(broken)?;
+        let (guard, mut terminal) = Guard::take().map_err(broken)?;
         let mut redraw = true;
         loop {
             if redraw {
@@ -121,15 +121,21 @@ impl App<'_> {
                 // All keys that wait are one step: a held key never runs ahead of the screen.
                 loop {
                     let action = keys::action(event::read().map_err(broken)?, self.focus());
-                    if action == Action::Repaint {
+                    let mut repaint = action == Action::Repaint;
+                    redraw |= action != Action::Nothing;
+                    match self.act(action)? {
+                        Flow::Stay => {}
+                        Flow::Leave => return Ok(()),
+                        Flow::OpenEditor => {
+                            self.open_editor(&guard).map_err(broken)?;
+                            repaint = true;
+                        }
+                    }
+                    if repaint {
                         // Not `Terminal::clear`: that asks the terminal where its cursor is, and
                         // gives up where no answer comes.
                         execute!(stdout(), Clear(ClearType::All)).map_err(broken)?;
                         terminal.swap_buffers();
-                    }
-                    redraw |= action != Action::Nothing;
-                    if self.act(action)? == Flow::Leave {
-                        return Ok(());
                     }
                     if !event::poll(Duration::ZERO).map_err(broken)? {
                         break;
@@ -206,8 +212,9 @@ impl App<'_> {
                 }
             },
             Screen::Lesson(lesson) => {
-                if lesson.act(action) == Flow::Stay {
-                    return Ok(Flow::Stay);
+                let flow = lesson.act(action);
+                if flow != Flow::Leave {
+                    return Ok(flow);
                 }
                 if !self.from_list {
                     return Ok(Flow::Leave);
@@ -220,6 +227,19 @@ impl App<'_> {
                 Ok(Flow::Stay)
             }
         }
+    }
+
+    /// Lends the terminal to the learner's editor.
+    fn open_editor(&mut self, guard: &Guard) -> std::io::Result<()> {
+        let Screen::Lesson(lesson) = &mut self.screen else {
+            return Ok(());
+        };
+        let Some(text) = lesson.text_to_edit() else {
+            return Ok(());
+        };
+        let edited = guard.lend(|| crate::editor::edit(&text))?;
+        lesson.take_over(edited);
+        Ok(())
     }
 
     fn fit(&mut self, area: ratatui::layout::Rect) {

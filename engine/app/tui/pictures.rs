@@ -15,13 +15,13 @@ use ratatui_image::sliced::SlicedProtocol;
 use tutor::Lesson;
 
 use super::probe;
-use crate::fingerprints::fingerprint;
+use crate::fingerprints::{Subject, fingerprint};
 
 /// A spinner turns this often.
 const TURN: Duration = Duration::from_millis(100);
 
-/// What a picture is, besides the lesson: id and size in cells.
-type Key = (String, String, u16, u16);
+/// What a picture is: what it shows, and its size in cells.
+type Key = (Subject, u16, u16);
 
 /// A picture that was asked for.
 enum Job {
@@ -81,10 +81,10 @@ impl Pictures {
     pub fn want<'a>(
         &mut self,
         lesson: &Arc<Lesson>,
-        wanted: impl Iterator<Item = (&'a str, &'a str, u16, u16)>,
+        wanted: impl Iterator<Item = (&'a Subject, u16, u16)>,
     ) {
         let wanted: Vec<Key> = wanted
-            .map(|(lesson, id, width, height)| (lesson.to_owned(), id.to_owned(), width, height))
+            .map(|(subject, width, height)| (subject.clone(), width, height))
             .collect();
         self.jobs.retain(|key, job| {
             let keep = wanted.contains(key);
@@ -130,11 +130,8 @@ impl Pictures {
     }
 
     /// How the picture stands, at whatever size.
-    pub fn state(&self, lesson: &str, id: &str) -> Option<State<'_>> {
-        let (_, job) = self
-            .jobs
-            .iter()
-            .find(|(key, _)| key.0 == lesson && key.1 == id)?;
+    pub fn state(&self, subject: &Subject) -> Option<State<'_>> {
+        let (_, job) = self.jobs.iter().find(|(key, _)| key.0 == *subject)?;
         Some(match job {
             Job::Drawing { since, .. } => State::Drawing {
                 spinner: (since.elapsed().as_millis() / TURN.as_millis()) as usize,
@@ -175,26 +172,18 @@ fn draw(
     colours: bool,
     cancel: &AtomicBool,
 ) -> Result<Drawn, String> {
-    let (_, id, width, height) = key;
-    let fingerprint = fingerprint(lesson, id).ok_or("the lesson has no such picture")?;
+    let (subject, width, height) = key;
     let cell = match picker.protocol_type() {
         // Half-blocks have two pixels a cell; twice that, to be averaged.
         ProtocolType::Halfblocks => 2,
         _ => u32::from(picker.font_size().width),
     };
     let size = (u32::from(*width) * cell / 3).clamp(64, 1024);
-    // At this size the CPU is done before a driver is loaded, and it writes no messages of its
-    // own over the screen.
-    let options = renders::Options {
-        size,
-        backend: renders::Backend::Cpu,
-        compact: true,
-        ..renders::Options::default()
+    let (columns, rows, rgba) = match &subject.own {
+        Some(source) => crate::shaders::picture(lesson, &subject.id, source, size)?,
+        None => fingerprint_of(lesson, &subject.id, size, cancel)?,
     };
-    let picture =
-        renders::render(&fingerprint, &options, cancel).map_err(|error| error.to_string())?;
-    let image = RgbaImage::from_raw(picture.width, picture.height, picture.rgba)
-        .ok_or("the picture has the wrong size")?;
+    let image = RgbaImage::from_raw(columns, rows, rgba).ok_or("the picture has the wrong size")?;
     if !colours && picker.protocol_type() == ProtocolType::Halfblocks {
         return Ok(Drawn::Shades(shades(&image, *width, *height)));
     }
@@ -207,6 +196,27 @@ fn draw(
     )
     .map(Drawn::Pixels)
     .map_err(|error| error.to_string())
+}
+
+/// The panels of one of the lesson's pictures: width, height, pixels.
+fn fingerprint_of(
+    lesson: &Lesson,
+    id: &str,
+    size: u32,
+    cancel: &AtomicBool,
+) -> Result<(u32, u32, Vec<u8>), String> {
+    let fingerprint = fingerprint(lesson, id).ok_or("the lesson has no such picture")?;
+    // At this size the CPU is done before a driver is loaded, and it writes no messages of its
+    // own over the screen.
+    let options = renders::Options {
+        size,
+        backend: renders::Backend::Cpu,
+        compact: true,
+        ..renders::Options::default()
+    };
+    let picture =
+        renders::render(&fingerprint, &options, cancel).map_err(|error| error.to_string())?;
+    Ok((picture.width, picture.height, picture.rgba))
 }
 
 /// A picture in letters: brightness in two panels, too dark or too bright in the third.

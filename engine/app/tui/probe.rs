@@ -17,15 +17,19 @@ struct Answer {
 /// Asks the terminal. Half-blocks where it says nothing; `LOBE_PICTURES` (`kitty`, `iterm2`,
 /// `sixel`, `halfblocks`) overrides what it says.
 pub fn picker() -> Picker {
+    let forced = env::var("LOBE_PICTURES")
+        .ok()
+        .and_then(|name| protocol(&name));
+    if forced == Some(ProtocolType::Halfblocks) {
+        // They need nothing to be known; and a key pressed while asking would be lost.
+        return Picker::halfblocks();
+    }
     let answer = if cfg!(unix) {
         parse(&asked())
     } else {
         Answer::default()
     };
     let cell = answer.cell.or_else(cell_from_window);
-    let forced = env::var("LOBE_PICTURES")
-        .ok()
-        .and_then(|name| protocol(&name));
     let Some((width, height)) = cell else {
         // Without the size of a cell in pixels only half-blocks come out right.
         return Picker::halfblocks();

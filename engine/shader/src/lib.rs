@@ -24,6 +24,7 @@ pub use machine::Limits;
 
 use halt::Halt;
 use machine::Machine;
+use naga::{Function, Handle, Module};
 use serde::{Deserialize, Serialize};
 
 /// The most bytes of a text that are read.
@@ -78,8 +79,10 @@ pub struct Place {
     pub column: usize,
     /// How many characters it is about, at least 1.
     pub width: usize,
-    /// The line, without control characters.
+    /// The line, without control characters; of a long line the part around it.
     pub text: String,
+    /// Where it is in `text`, in characters from 1.
+    pub mark: usize,
 }
 
 /// Why a call gave no value.
@@ -91,24 +94,55 @@ pub struct Stop {
     pub says: String,
 }
 
+/// A text that was read, and its function.
+#[derive(Debug)]
+pub struct Program {
+    module: Module,
+    function: Handle<Function>,
+    limits: Limits,
+}
+
+impl Program {
+    /// Reads the text of a task.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn read(task: &Task, limits: Limits) -> Result<Program, Complaint> {
+        let (module, function) = read::read(task, limits)?;
+        Ok(Program {
+            module,
+            function,
+            limits,
+        })
+    }
+
+    /// Calls the function with the arguments of each point.
+    ///
+    /// # Errors
+    /// The first call that gave no value.
+    pub fn values(&self, points: &[Vec<f32>]) -> Result<Vec<f32>, Stop> {
+        let mut machine = Machine::new(&self.module, self.limits);
+        let mut values = Vec::with_capacity(points.len());
+        for (point, arguments) in points.iter().enumerate() {
+            let value = machine.call(self.function, arguments);
+            values.push(value.map_err(|halt| Stop {
+                point,
+                says: sentence(halt, self.limits),
+            })?);
+        }
+        Ok(values)
+    }
+}
+
 /// Reads the text and calls its function.
 pub fn run(task: &Task, limits: Limits) -> Outcome {
-    let (module, function) = match read::read(task, limits) {
-        Ok(read) => read,
-        Err(complaint) => return Outcome::Refused(complaint),
-    };
-    let mut machine = Machine::new(&module, limits);
-    let mut values = Vec::with_capacity(task.points.len());
-    for (point, arguments) in task.points.iter().enumerate() {
-        match machine.call(function, arguments) {
-            Ok(value) => values.push(value),
-            Err(halt) => {
-                let says = sentence(halt, limits);
-                return Outcome::Stopped(Stop { point, says });
-            }
-        }
+    match Program::read(task, limits) {
+        Err(complaint) => Outcome::Refused(complaint),
+        Ok(program) => match program.values(&task.points) {
+            Ok(values) => Outcome::Values(values),
+            Err(stop) => Outcome::Stopped(stop),
+        },
     }
-    Outcome::Values(values)
 }
 
 fn sentence(halt: Halt, limits: Limits) -> String {

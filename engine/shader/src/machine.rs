@@ -81,7 +81,7 @@ impl<'m> Machine<'m> {
     pub fn new(module: &'m Module, limits: Limits) -> Machine<'m> {
         let rooms = module.functions.iter().map(|(_, function)| {
             let variables = function.local_variables.iter();
-            let counts = variables.map(|(_, it)| value::count(module, it.ty).unwrap_or(u64::MAX));
+            let counts = variables.map(|(_, it)| value::count(module, it.ty));
             counts.fold(0, u64::saturating_add)
         });
         Machine {

@@ -6,6 +6,9 @@ use naga::{Function, Handle, Module, Scalar, Span, TypeInner};
 use crate::machine::Limits;
 use crate::{Complaint, MOST_BYTES, Place, Task, invalid, support, thousands, words};
 
+/// Lines longer than this are not shown whole.
+const WIDEST: usize = 120;
+
 /// The text that naga reads: what is offered, then what was written.
 pub struct Text<'a> {
     pub whole: String,
@@ -46,14 +49,18 @@ impl<'a> Text<'a> {
         let text = rest.lines().next().unwrap_or_default();
         let column = self.source[start..range.start].chars().count();
         let width = self.source[range].lines().next().unwrap_or_default();
+        let shown = |letter: char| if letter.is_control() { ' ' } else { letter };
+        // A line that nobody could read on a screen is cut on both sides.
+        let cut = match text.chars().count() > WIDEST {
+            true => column.saturating_sub(WIDEST / 2),
+            false => 0,
+        };
         Place {
             line: before.matches('\n').count() + 1,
             column: column + 1,
             width: width.chars().count().max(1),
-            text: text
-                .chars()
-                .map(|letter| if letter.is_control() { ' ' } else { letter })
-                .collect(),
+            text: text.chars().skip(cut).take(WIDEST).map(shown).collect(),
+            mark: column - cut + 1,
         }
     }
 }

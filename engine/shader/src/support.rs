@@ -22,6 +22,12 @@ pub fn check(text: &Text<'_>, module: &Module, limits: Limits) -> Result<(), Com
         }
         room(text, module, variable.ty, span, limits)?;
     }
+    for (handle, ty) in module.types.iter() {
+        if !value::knows(&ty.inner) {
+            let span = module.types.get_span(handle);
+            return Err(refused(text, span, "This type", "use f32, i32, u32, bool"));
+        }
+    }
     for (_, function) in module.functions.iter() {
         for (handle, variable) in function.local_variables.iter() {
             let span = function.local_variables.get_span(handle);
@@ -54,14 +60,13 @@ fn room(
     limits: Limits,
 ) -> Result<(), Complaint> {
     match value::count(module, ty) {
-        None => Err(refused(text, span, "This type", "use f32, i32, u32, bool")),
-        Some(count) if count > limits.room => Err(complaint(format!(
+        count if count > limits.room => Err(complaint(format!(
             "This holds {} numbers; {} is the most there is room for.",
             thousands(count),
             thousands(limits.room)
         ))
         .at(text.place(span))),
-        Some(_) => Ok(()),
+        _ => Ok(()),
     }
 }
 

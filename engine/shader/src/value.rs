@@ -216,26 +216,33 @@ pub fn zero(module: &Module, ty: Handle<Type>) -> Result<Value, Halt> {
     })
 }
 
-/// How many numbers a type holds; `None` for what this machine does not run.
-pub fn count(module: &Module, ty: Handle<Type>) -> Option<u64> {
+/// How many numbers a type holds, padding included; 0 where it holds none of its own.
+pub fn count(module: &Module, ty: Handle<Type>) -> u64 {
+    // From the sizes that reading computed: types within types within types are many.
     match &module.types[ty].inner {
-        TypeInner::Scalar(of) => zero_scalar(*of).map(|_| 1),
-        TypeInner::Vector { size, scalar } => zero_scalar(*scalar).map(|_| *size as u64),
-        TypeInner::Matrix {
-            columns,
-            rows,
-            scalar,
-        } => zero_scalar(*scalar).map(|_| *columns as u64 * *rows as u64),
+        TypeInner::Scalar(_) => 1,
+        TypeInner::Vector { size, .. } => *size as u64,
+        TypeInner::Matrix { columns, rows, .. } => *columns as u64 * *rows as u64,
         TypeInner::Array {
-            base,
             size: ArraySize::Constant(len),
+            stride,
             ..
-        } => Some(count(module, *base)?.saturating_mul(u64::from(len.get()))),
-        TypeInner::Struct { members, .. } => members.iter().try_fold(0_u64, |sum, member| {
-            Some(sum.saturating_add(count(module, member.ty)?))
-        }),
-        TypeInner::Pointer { base, .. } => count(module, *base).map(|_| 0),
-        TypeInner::ValuePointer { scalar, .. } => zero_scalar(*scalar).map(|_| 0),
-        _ => None,
+        } => u64::from(len.get()) * u64::from(*stride).div_ceil(4),
+        TypeInner::Struct { span, .. } => u64::from(*span).div_ceil(4),
+        _ => 0,
+    }
+}
+
+/// Whether a type is made of what this machine computes with; what it is made of is asked by
+/// itself.
+pub fn knows(inner: &TypeInner) -> bool {
+    match inner {
+        TypeInner::Scalar(scalar)
+        | TypeInner::Vector { scalar, .. }
+        | TypeInner::Matrix { scalar, .. }
+        | TypeInner::ValuePointer { scalar, .. } => zero_scalar(*scalar).is_some(),
+        TypeInner::Array { size, .. } => matches!(size, ArraySize::Constant(_)),
+        TypeInner::Struct { .. } | TypeInner::Pointer { .. } => true,
+        _ => false,
     }
 }

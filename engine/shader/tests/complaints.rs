@@ -280,3 +280,13 @@ fn what_only_a_graphics_processor_does_is_said_to_be_so() {
         assert!(found.place.is_some(), "{source}");
     }
 }
+
+#[test]
+fn of_a_long_line_the_part_around_the_mistake_is_shown() {
+    let long = format!("{}return y;", "{ }".repeat(500));
+    let found = complaint(&format!("fn g(x: f32) -> f32 {{ {long} }}"));
+    let place = found.place.expect("a place");
+    assert_eq!(place.column, 22 + long.find('y').expect("y") + 1);
+    assert!(place.text.len() <= 120, "{}", place.text.len());
+    assert_eq!(place.text.chars().nth(place.mark - 1), Some('y'));
+}

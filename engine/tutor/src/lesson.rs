@@ -2,6 +2,7 @@
 
 mod exercise;
 mod fingerprint;
+mod shader;
 
 use std::fmt;
 use std::ops::Deref;
@@ -17,6 +18,7 @@ pub use exercise::{
     ChoiceOption, Exercise, ExerciseStep, NamedMistake, SuspectLine, Task, Tolerance, Variable,
 };
 pub use fingerprint::{Fingerprint, SEEN, STAGING, SceneLight};
+pub use shader::ShaderTask;
 
 /// A string of the lesson file and where it stands.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -98,6 +98,7 @@ impl Lesson {
             id: print.id.text.clone(),
             title: plain(&self.inline(&print.title, &known)),
             caption,
+            own: None,
         })
     }
 

@@ -141,6 +141,8 @@ pub enum Block {
         title: String,
         /// What it shows and where it does not.
         caption: Vec<Inline>,
+        /// A learner's shader that stands for the wrong formula; `id` is then an exercise's.
+        own: Option<String>,
     },
     /// One worked line: the formula, the numbers put in, the value.
     Derivation {
@@ -214,6 +216,14 @@ impl Lesson {
     pub fn spelled(&self, name: &str) -> String {
         formula::unicode_name(name)
     }
+}
+
+/// Markdown without templates: words in which braces are braces.
+pub(crate) fn markdown_alone(text: &str) -> Vec<Block> {
+    markdown::blocks(&template::Filled {
+        text: text.to_owned(),
+        ..Default::default()
+    })
 }
 
 /// A number in its shortest form, at most 12 significant digits.

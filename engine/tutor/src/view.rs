@@ -109,6 +109,15 @@ pub enum Input {
         /// What was typed before, and not yet handed in.
         draft: String,
     },
+    /// A WGSL function to be changed; what is handed in is the whole text.
+    Code {
+        /// The function's name.
+        label: String,
+        /// How near is near enough, said beforehand.
+        note: String,
+        /// The text as it stands.
+        text: String,
+    },
     /// One of several; answered by its letter (`a`, `b`, …), its number, or its text.
     Choice {
         /// The options in the order shown.

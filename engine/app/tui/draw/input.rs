@@ -24,6 +24,13 @@ pub fn height(screen: &LessonScreen, width: u16, room: u16) -> u16 {
         (Input::Reply { .. }, _) => 3,
         // Large enough to see what one writes, small enough to see what one answers.
         (Input::Text { .. }, _) => (room / 3).clamp(4, 14),
+        // The function as a whole, where the page leaves room for it.
+        (Input::Code { .. }, field) => {
+            let lines = field
+                .text()
+                .map_or(1, |text| text.split('\n').count() as u16);
+            lines.clamp(4, (room * 2 / 3).max(4))
+        }
         (Input::Choice { options }, _) => wrapped_rows(options.iter().map(String::as_str), inner),
         (Input::Order { items }, _) => wrapped_rows(items.iter().map(String::as_str), inner),
         (Input::Checklist { points }, _) => {
@@ -55,6 +62,7 @@ pub fn draw(frame: &mut Frame, area: Rect, screen: &LessonScreen, palette: Palet
             (label.clone(), note.clone())
         }
         Input::Text { label, .. } => (label.clone(), String::new()),
+        Input::Code { label, note, .. } => (format!("fn {label}"), note.replace('`', "")),
         Input::Choice { .. } => ("Which one?".to_owned(), String::new()),
         Input::Order { .. } => (
             "Put in order".to_owned(),
@@ -76,20 +84,23 @@ pub fn draw(frame: &mut Frame, area: Rect, screen: &LessonScreen, palette: Palet
     if !note.is_empty() {
         frame_block = frame_block.title_bottom(Line::styled(format!(" {note} "), palette.quiet()));
     }
-    if let Field::Editor(_) = screen.field {
+    if let Field::Editor(_) | Field::Code(_) = screen.field {
+        let button = match screen.field {
+            Field::Code(_) => " [ Run: Ctrl-S ] ",
+            _ => " [ Hand in: Ctrl-S ] ",
+        };
         let style = if screen.focus == Focus::Button {
             palette.selected()
         } else {
             palette.key()
         };
-        frame_block =
-            frame_block.title_bottom(Line::styled(" [ Hand in: Ctrl-S ] ", style).right_aligned());
+        frame_block = frame_block.title_bottom(Line::styled(button, style).right_aligned());
     }
     let inner = frame_block.inner(area);
     frame.render_widget(frame_block, area);
     match &screen.field {
         Field::None => {}
-        Field::Line(field) | Field::Editor(field) => {
+        Field::Line(field) | Field::Editor(field) | Field::Code(field) => {
             let inner = Rect {
                 x: inner.x + 1,
                 width: inner.width.saturating_sub(2),

@@ -298,6 +298,20 @@ fn keys(screen: &LessonScreen) -> Vec<Key> {
             ];
             return with_general(keys, &rest);
         }
+        (Focus::Editor, Field::Code(_)) => {
+            keys.push(key("Ctrl-S", "run"));
+            keys.push(key("Ctrl-O", "your editor"));
+            if view.can.hint.is_some() {
+                keys.push(key("Ctrl-T", hint_label(view)));
+            }
+            let rest = [
+                ("Esc", "leave field"),
+                ("F1", "help"),
+                ("Ctrl-C", "quit"),
+                ("PgUp/PgDn", "scroll"),
+            ];
+            return with_general(keys, &rest);
+        }
         (Focus::Editor, _) => {
             keys.push(key("Ctrl-S", "hand in"));
             let rest = [
@@ -310,7 +324,11 @@ fn keys(screen: &LessonScreen) -> Vec<Key> {
             return with_general(keys, &rest);
         }
         (Focus::Button, _) => {
-            keys.push(key("Enter", "hand in"));
+            let does = match screen.field {
+                Field::Code(_) => "run",
+                _ => "hand in",
+            };
+            keys.push(key("Enter", does));
             keys.push(key("Tab", "to the page"));
         }
         (Focus::Options, Field::Choice { .. }) => {

@@ -12,6 +12,7 @@ use unicode_width::UnicodeWidthStr as _;
 use super::picture;
 use super::plot;
 use super::style::Palette;
+use crate::fingerprints::Subject;
 use crate::text::{self, Piece, Pieces, Role};
 use crate::tui::pictures::Pictures;
 
@@ -26,11 +27,7 @@ const PLOT: u16 = 38;
 enum What {
     Line(Line<'static>),
     Plot(Box<PlotView>),
-    Picture {
-        lesson: String,
-        id: String,
-        title: String,
-    },
+    Picture { subject: Subject, title: String },
 }
 
 struct Placed {
@@ -129,11 +126,10 @@ impl Page {
     }
 
     /// The pictures of this page and the sizes wanted.
-    pub fn pictures(&self) -> impl Iterator<Item = (&str, &str, u16, u16)> {
+    pub fn pictures(&self) -> impl Iterator<Item = (&Subject, u16, u16)> {
         self.placed.iter().filter_map(|placed| match &placed.what {
-            What::Picture { lesson, id, .. } => Some((
-                lesson.as_str(),
-                id.as_str(),
+            What::Picture { subject, .. } => Some((
+                subject,
                 placed.width,
                 placed.height as u16 - picture::AROUND,
             )),
@@ -167,7 +163,7 @@ impl Page {
                     plot::draw(view, palette, whole, &mut drawn);
                     copy_visible(&drawn, placed, scroll, area, buffer);
                 }
-                What::Picture { lesson, id, title } => {
+                What::Picture { subject, title } => {
                     let window = Rect {
                         x: area.x + placed.x,
                         width,
@@ -176,7 +172,7 @@ impl Page {
                     let offset = placed.y as i32 - scroll as i32;
                     picture::draw(
                         pictures,
-                        (lesson, id),
+                        subject,
                         title,
                         placed.height as u16,
                         offset,
@@ -228,11 +224,15 @@ impl Page {
                     id,
                     title,
                     caption,
+                    own,
                 } => {
                     let height = picture::height(width) as usize;
                     let what = What::Picture {
-                        lesson: lesson.clone(),
-                        id: id.clone(),
+                        subject: Subject {
+                            lesson: lesson.clone(),
+                            id: id.clone(),
+                            own: own.clone(),
+                        },
                         title: title.clone(),
                     };
                     self.put(&mut slot, what, height);

@@ -7,6 +7,7 @@ use ratatui::widgets::Widget as _;
 use ratatui_image::sliced::{SignedPosition, SlicedImage};
 
 use super::style::Palette;
+use crate::fingerprints::Subject;
 use crate::tui::pictures::{Pictures, State};
 
 /// Rows around a picture: its title, the names of its panels, what the colours say.
@@ -28,7 +29,7 @@ const SIGNS: &str = "- too dark · = right · + too bright";
 #[allow(clippy::too_many_arguments)]
 pub fn draw(
     pictures: &Pictures,
-    (lesson, id): (&str, &str),
+    subject: &Subject,
     title: &str,
     height: u16,
     offset: i32,
@@ -51,9 +52,12 @@ pub fn draw(
     line(offset, Line::styled(title.to_owned(), palette.title()));
     line(
         offset + i32::from(height) - 2,
-        Line::styled(names(window.width as usize), palette.quiet()),
+        Line::styled(
+            names(window.width as usize, subject.own.is_some()),
+            palette.quiet(),
+        ),
     );
-    let state = pictures.state(lesson, id);
+    let state = pictures.state(subject);
     let key = match state {
         Some(State::Shades(_)) => SIGNS,
         _ => COLOURS,
@@ -93,9 +97,10 @@ pub fn draw(
 }
 
 /// The names of the three panels, each below its own.
-fn names(width: usize) -> String {
+fn names(width: usize, is_own: bool) -> String {
     let third = width / 3;
-    ["correct", "buggy", "log2 of the ratio"]
+    let second = if is_own { "yours" } else { "buggy" };
+    ["correct", second, "log2 of the ratio"]
         .map(|name| format!("{name:^third$}"))
         .concat()
 }

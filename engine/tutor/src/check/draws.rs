@@ -112,6 +112,9 @@ fn check_exercise(checker: &mut Checker<'_>, exercise: &Exercise, own: bool) -> 
     if is_numeric || matches!(exercise.task, Task::FindTheMistake { .. }) {
         tolerance(checker, exercise);
     }
+    if let Task::Shader(shader) = &exercise.task {
+        super::shaders::check(checker, exercise, shader);
+    }
     if is_numeric && own {
         for (what, found, least) in [
             ("named mistakes", named, NAMED),

@@ -12,7 +12,7 @@ const POINTS: usize = 200;
 /// polished surface D keeps ten of f64's sixteen digits.
 const REL: f64 = 1e-6;
 /// The quantities that a picture offers to its formulas, besides those of its scene.
-const OFFERED: [&str; 10] = [
+pub(super) const OFFERED: [&str; 10] = [
     "n_dot_l",
     "n_dot_v",
     "n_dot_h",

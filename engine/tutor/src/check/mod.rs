@@ -7,6 +7,7 @@ mod formulas;
 mod names;
 mod numbers;
 mod scenes;
+pub mod shaders;
 mod texts;
 
 use formula::{Expr, Values};

@@ -37,7 +37,7 @@ impl Plan<'_> {
             let point = self.point(&variables);
             if self.accepts(&point) {
                 let drawn = match &self.exercise.task {
-                    Task::Numeric { .. } => Some(self.numeric(&point, steps)),
+                    Task::Numeric { .. } | Task::Shader(_) => Some(self.numeric(&point, steps)),
                     Task::Choice { options } => self.choice(&point, options, &mut random),
                     Task::Order { items } => Some(self.order(&point, items, &mut random)),
                     Task::FindTheMistake { lines, .. } => self.suspects(&point, lines),
@@ -90,7 +90,8 @@ impl Plan<'_> {
                 named.push((mistake.made_in, value));
             }
         }
-        self.kind_to_rounding(point)
+        // Nobody rounds in a shader.
+        matches!(self.exercise.task, Task::Shader(_)) || self.kind_to_rounding(point)
     }
 
     /// Whether somebody who keeps the digits that he is told to keep stays within the tolerance,

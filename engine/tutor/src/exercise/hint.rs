@@ -32,6 +32,14 @@ pub fn hint(
             blocks.extend(after_right(lesson, exercise, draw, step));
             blocks
         }
+        Task::Shader(shader) => vec![
+            Block::Paragraph(vec![
+                Inline::Text("It should compute ".to_owned()),
+                Inline::Math(lesson.library.unicode(&shader.is.expr)),
+                Inline::Text(". One way to write it:".to_owned()),
+            ]),
+            Block::CodeBlock(shader.solution.trim_end().to_owned()),
+        ],
     }
 }
 
@@ -142,6 +150,11 @@ pub fn tolerance_words(exercise: &Exercise) -> String {
     match &exercise.task {
         Task::Choice { .. } => "the number of an option".to_owned(),
         Task::Order { .. } => "all numbers, in order".to_owned(),
+        Task::Shader(shader) => format!(
+            "`{}` within {} % at every point",
+            shader.function,
+            percent(exercise.tolerance.rel)
+        ),
         Task::Numeric { .. } | Task::FindTheMistake { .. } => {
             let within = format!("within {} %", percent(exercise.tolerance.rel));
             format!("{within}; keep {} digits in between", digits_kept(exercise))

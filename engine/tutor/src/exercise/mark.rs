@@ -135,6 +135,8 @@ pub fn mark(
         (Task::FindTheMistake { lines, .. }, Some("line")) => {
             super::words::mark_line(lesson, lines, answer)
         }
+        // Nothing is run here: `mark_shader` takes what came of it.
+        (Task::Shader(_), _) => Marking::invalid("A shader is marked by what it computes."),
         _ => mark_number(lesson, exercise, draw, step, answer, earlier),
     }
 }

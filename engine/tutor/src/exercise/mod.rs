@@ -9,6 +9,7 @@ mod mark;
 pub(crate) mod plan;
 pub(crate) mod random;
 pub mod report;
+pub mod shader;
 mod words;
 
 use formula::Values;

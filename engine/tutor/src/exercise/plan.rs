@@ -4,7 +4,7 @@ use formula::{Expr, Library, Program};
 
 use super::chain::follow;
 use super::random::Random;
-use crate::lesson::{Exercise, ExerciseStep, Lesson, Task};
+use crate::lesson::{Exercise, ExerciseStep, Lesson, Task, Text};
 
 /// Points at which two formulas that agree count as the same.
 const POINTS: usize = 64;
@@ -64,6 +64,15 @@ pub fn steps_of(exercise: &Exercise) -> Vec<ExerciseStep> {
                 is: line.right.clone().unwrap_or_else(|| line.is.clone()),
             })
             .collect(),
+        // What the function computes.
+        Task::Shader(shader) => vec![ExerciseStep {
+            name: Text {
+                text: "answer".to_owned(),
+                place: shader.is.text.place,
+            },
+            ask: None,
+            is: shader.is.clone(),
+        }],
         Task::Choice { .. } | Task::Order { .. } => Vec::new(),
     }
 }
@@ -81,7 +90,7 @@ impl<'l> Plan<'l> {
     ) -> Result<Plan<'l>, String> {
         let mut plan = Plan::without_mistakes(lesson, exercise, steps)?;
         plan.add_named(steps)?;
-        if matches!(exercise.task, Task::Numeric { .. }) {
+        if matches!(exercise.task, Task::Numeric { .. } | Task::Shader(_)) {
             plan.add_mutants(steps);
         }
         plan.drop_alike();
@@ -307,11 +316,15 @@ impl<'l> Plan<'l> {
     /// author's condition holds.
     pub fn allowed(&self, point: &Point) -> bool {
         let finite = |value: &f64| value.is_finite() && value.abs() > 1e-12;
-        point.steps.iter().all(finite)
-            && self.where_.as_ref().is_none_or(|where_| {
-                let value = where_.eval(&point.inputs(self.steps.len()));
-                value.is_finite() && value != 0.0
-            })
+        point.steps.iter().all(finite) && self.holds(point)
+    }
+
+    /// Whether the author's condition holds.
+    pub fn holds(&self, point: &Point) -> bool {
+        self.where_.as_ref().is_none_or(|where_| {
+            let value = where_.eval(&point.inputs(self.steps.len()));
+            value.is_finite() && value != 0.0
+        })
     }
 }
 

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::{Draw, Marking, Truth};
-use crate::lesson::{Exercise, Lesson};
+use crate::lesson::{Exercise, Lesson, Task};
 
 /// One line of `lobe exercise --list --json`.
 #[derive(Clone, Debug, Serialize)]
@@ -48,6 +48,51 @@ pub struct ExerciseReport<'a> {
     shown: &'a [String],
     kind: &'static str,
     tries: u32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    shader: Option<ShaderReport<'a>>,
+}
+
+/// The function that a learner gets to mend.
+#[derive(Clone, Debug, Serialize)]
+struct ShaderReport<'a> {
+    function: &'a str,
+    params: Vec<ParamReport<'a>>,
+    offers: Vec<&'a str>,
+    source: &'a str,
+    /// What it should compute, as written in the lesson.
+    is: &'a str,
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct ParamReport<'a> {
+    name: &'a str,
+    from: f64,
+    to: f64,
+}
+
+impl<'a> ShaderReport<'a> {
+    fn new(exercise: &'a Exercise) -> Option<ShaderReport<'a>> {
+        let Task::Shader(shader) = &exercise.task else {
+            return None;
+        };
+        let ends = |values: &[f64]| {
+            let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+            let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            (least, most)
+        };
+        let params = exercise.draw.iter().map(|variable| {
+            let (from, to) = ends(&variable.values);
+            let name = &variable.name;
+            ParamReport { name, from, to }
+        });
+        Some(ShaderReport {
+            function: &shader.function,
+            params: params.collect(),
+            offers: shader.offers.iter().map(|name| &**name).collect(),
+            source: &shader.source,
+            is: &shader.is.text,
+        })
+    }
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -125,6 +170,7 @@ impl<'a> ExerciseReport<'a> {
             shown: &draw.shown,
             kind: exercise.kind(),
             tries: draw.tries,
+            shader: ShaderReport::new(exercise),
         }
     }
 }

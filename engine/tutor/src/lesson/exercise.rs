@@ -1,6 +1,6 @@
 //! Exercises as a lesson file gives them.
 
-use super::{Formula, Text};
+use super::{Formula, ShaderTask, Text};
 use crate::finding::Place;
 
 /// How near an answer must be.
@@ -53,13 +53,14 @@ pub struct Exercise {
 }
 
 impl Exercise {
-    /// `numeric`, `choice`, `order` or `find-the-mistake`.
+    /// `numeric`, `choice`, `order`, `find-the-mistake` or `shader`.
     pub fn kind(&self) -> &'static str {
         match self.task {
             Task::Numeric { .. } => "numeric",
             Task::Choice { .. } => "choice",
             Task::Order { .. } => "order",
             Task::FindTheMistake { .. } => "find-the-mistake",
+            Task::Shader(_) => "shader",
         }
     }
 }
@@ -89,6 +90,8 @@ pub enum Task {
         /// Id of the source's number that the calculation comes from.
         source: Option<Text>,
     },
+    /// A WGSL function with a bug: mend it.
+    Shader(Box<ShaderTask>),
 }
 
 /// One number asked for.

@@ -6,15 +6,15 @@ use super::reader::{self, Table, place};
 use super::{each, each_some};
 use crate::finding::Place;
 use crate::lesson::{
-    ChoiceOption, Exercise, ExerciseStep, Faded, NamedMistake, SuspectLine, Task, Text, Tolerance,
-    Variable, Worked, WorkedLine,
+    ChoiceOption, Exercise, ExerciseStep, Faded, NamedMistake, ShaderTask, SuspectLine, Task, Text,
+    Tolerance, Variable, Worked, WorkedLine,
 };
 
 /// The most values a variable may take.
 const MOST_VALUES: usize = 10_000;
 
 /// The kinds there are.
-const KINDS: [&str; 4] = ["numeric", "choice", "order", "find-the-mistake"];
+const KINDS: [&str; 5] = ["numeric", "choice", "order", "find-the-mistake", "shader"];
 
 pub fn read(table: &Table<'_, '_>, worked: Option<&Worked>) -> Option<Exercise> {
     let kind = table.text("kind");
@@ -23,13 +23,17 @@ pub fn read(table: &Table<'_, '_>, worked: Option<&Worked>) -> Option<Exercise> 
         "choice" => read_choice(table),
         "order" => read_order(table),
         "find-the-mistake" => read_find_the_mistake(table),
+        "shader" => read_shader(table),
         other => {
             let message = format!("`{other}` is not a kind of exercise.");
             let near = reader::nearest(other, KINDS.into_iter());
             let expected = near.map_or_else(|| KINDS.join(", "), str::to_owned);
             table.wrong("kind", "unknown-name", message, &expected);
             // Which keys it should have depends on what was meant.
-            for key in ["is", "answer", "steps", "option", "item", "line", "source"] {
+            for key in [
+                "is", "answer", "steps", "option", "item", "line", "source", "function", "offers",
+                "solution", "scene",
+            ] {
                 let _ = table.get(key);
             }
             None
@@ -37,7 +41,7 @@ pub fn read(table: &Table<'_, '_>, worked: Option<&Worked>) -> Option<Exercise> 
     };
     let needs_number = matches!(
         task,
-        Some(Task::Numeric { .. } | Task::FindTheMistake { .. })
+        Some(Task::Numeric { .. } | Task::FindTheMistake { .. } | Task::Shader(_))
     );
     let tolerance = read_tolerance(table, needs_number);
     let exercise = Exercise {
@@ -222,6 +226,24 @@ fn read_find_the_mistake(table: &Table<'_, '_>) -> Option<Task> {
         return None;
     }
     Some(Task::FindTheMistake { lines, source })
+}
+
+fn read_shader(table: &Table<'_, '_>) -> Option<Task> {
+    if table.bool("retest") == Some(true) {
+        let message = "A shader has no fresh numbers: it is not asked again.".to_owned();
+        table.wrong("retest", "nothing-drawn", message, "no `retest`");
+    }
+    if !table.has("draw") {
+        table.missing("draw", "draw = { n_dot_l = \"0.05..1 by 0.01\" }");
+    }
+    Some(Task::Shader(Box::new(ShaderTask {
+        function: table.need_text("function"),
+        offers: table.texts("offers"),
+        source: table.need_text("source"),
+        solution: table.need_text("solution"),
+        scene: table.givens("scene"),
+        is: table.need_formula("is")?,
+    })))
 }
 
 fn read_mistakes(table: &Table<'_, '_>) -> Vec<NamedMistake> {

@@ -51,6 +51,12 @@ impl Session {
                     self.turn(item, *round, problem::Turn::Hint { step, level });
                 }
             }
+            Event::Draft { item, text } if self.lesson.exercise(item).is_some() => {
+                self.begin(item, 0);
+                if let Some(problem) = self.problems.get_mut(&(item.clone(), 0)) {
+                    problem.draft = Some(text.clone());
+                }
+            }
             Event::Draft { item, text } => self.question(item).draft.clone_from(text),
             Event::Attempt {
                 item,
@@ -78,6 +84,7 @@ impl Session {
                 );
                 if let Some(problem) = self.problems.get_mut(&(item.clone(), *round)) {
                     problem.answered_to = Some(given.clone());
+                    problem.draft = None;
                 }
             }
             Event::Explained { .. } => self.explained(event),

@@ -5,11 +5,12 @@ use super::dialogue::Asked;
 use super::event::{Effect, Event, Msg, Quote};
 use super::problem::{Problem, WHOLE};
 use super::question::{Heard, Question, Try};
+use super::run::Running;
 use super::screen::Screen;
 use super::{reply, show_dialogue};
-use crate::exercise::{self, Marking};
+use crate::exercise::{self, Draw, Marking};
 use crate::judge::{JUDGE_VERSION, Judgement};
-use crate::lesson::{Explain, Lesson, Task};
+use crate::lesson::{Exercise, Explain, Lesson, Task};
 use crate::prose::plain;
 use crate::view::Saving;
 
@@ -25,6 +26,8 @@ pub(super) struct Decided {
     pub(super) waits: Option<(String, u32)>,
     /// The try on which nobody is asked for a second opinion, for it tells judges what to do.
     pub(super) asks_nobody: Option<(String, u32)>,
+    /// A shader that runs from here on.
+    pub(super) running: Option<Running>,
     pub(super) quit: bool,
 }
 
@@ -36,7 +39,7 @@ impl Decided {
         }
     }
 
-    fn note(note: impl Into<String>) -> Decided {
+    pub(super) fn note(note: impl Into<String>) -> Decided {
         Decided {
             note: Some(note.into()),
             ..Decided::default()
@@ -80,6 +83,7 @@ impl Session {
                 by,
                 said,
             } => self.second_opinion_came(&item, attempt, by, said),
+            Msg::Ran(ran) => self.ran(&ran),
             Msg::SaveFailed(why) => Decided {
                 saving: Some(Saving::Failed(why)),
                 note: self.view.note.take(),
@@ -106,6 +110,9 @@ impl Session {
         }
         if decided.waits.is_some() {
             self.waiting = decided.waits.take();
+        }
+        if let Some(running) = decided.running.take() {
+            self.running = Some(running);
         }
         let ended = (*self.here() == Screen::Result).then(|| self.verdict());
         if let Some((grade, words)) = ended.filter(|ended| self.finished.as_ref() != Some(ended)) {
@@ -315,6 +322,9 @@ impl Session {
     fn answer(&self, text: String) -> Decided {
         let empty = text.trim().is_empty();
         match (self.open(), self.here()) {
+            (Open::Step(problem, _), screen) if self.shader(screen).is_some() => {
+                self.hand_in_shader(screen, problem, text)
+            }
             (Open::Step(problem, step), screen) if !empty => {
                 self.answer_step(screen, problem, step, text)
             }
@@ -346,37 +356,20 @@ impl Session {
         let named = (step != WHOLE).then_some(step);
         let earlier = problem.earlier(step);
         let marking = exercise::mark(&self.lesson, exercise, draw, named, &text, &earlier);
-        let mistake = marking.mistake();
-        // The mistakes of a choice are all the author's own.
-        let choice = matches!(exercise.task, Task::Choice { .. });
-        let by_author = |id: &str| choice || exercise.mistakes.iter().any(|m| m.id.text == id);
-        let note = match marking {
-            Marking::Invalid { .. } | Marking::Correct | Marking::Carried { .. } => None,
-            Marking::Precision { .. }
-            | Marking::Mistake { .. }
-            | Marking::Ambiguous { .. }
-            | Marking::Off { .. }
-            | Marking::Wrong { .. } => Some("Try again, or go on with what you have.".to_owned()),
-        };
-        Decided {
-            note,
-            ..Decided::event(Event::Attempt {
-                item,
-                round,
-                step: step.to_owned(),
-                seed: problem.seed,
-                given: draw.given.clone(),
-                text,
-                result: marking.result().to_owned(),
-                named: mistake.is_some_and(by_author),
-                mistake: mistake.map(str::to_owned),
-                says: marking.says().to_owned(),
-            })
-        }
+        attempted(exercise, problem.seed, draw, &marking, round, step, text)
     }
 
     fn draft(&self, text: String) -> Decided {
         match (self.open(), self.here()) {
+            (Open::Step(problem, _), screen) => match self.shader(screen) {
+                Some((exercise, shader)) if problem.text(&shader.source) != text => {
+                    Decided::event(Event::Draft {
+                        item: exercise.id.text.clone(),
+                        text,
+                    })
+                }
+                _ => Decided::default(),
+            },
             (Open::Text(..) | Open::Reply(..), Screen::Explain { item, .. })
                 if self.questions.get(item).is_some_and(|it| it.draft != text) =>
             {
@@ -435,6 +428,45 @@ impl Session {
             }
             _ => None,
         }
+    }
+}
+
+/// An answer to an exercise, with what was said to it.
+pub(super) fn attempted(
+    exercise: &Exercise,
+    seed: u64,
+    draw: &Draw,
+    marking: &Marking,
+    round: u32,
+    step: &str,
+    text: String,
+) -> Decided {
+    let mistake = marking.mistake();
+    // The mistakes of a choice are all the author's own.
+    let choice = matches!(exercise.task, Task::Choice { .. });
+    let by_author = |id: &str| choice || exercise.mistakes.iter().any(|m| m.id.text == id);
+    let note = match marking {
+        Marking::Invalid { .. } | Marking::Correct | Marking::Carried { .. } => None,
+        Marking::Precision { .. }
+        | Marking::Mistake { .. }
+        | Marking::Ambiguous { .. }
+        | Marking::Off { .. }
+        | Marking::Wrong { .. } => Some("Try again, or go on with what you have.".to_owned()),
+    };
+    Decided {
+        note,
+        ..Decided::event(Event::Attempt {
+            item: exercise.id.text.clone(),
+            round,
+            step: step.to_owned(),
+            seed,
+            given: draw.given.clone(),
+            text,
+            result: marking.result().to_owned(),
+            named: mistake.is_some_and(by_author),
+            mistake: mistake.map(str::to_owned),
+            says: marking.says().to_owned(),
+        })
     }
 }
 

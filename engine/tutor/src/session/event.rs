@@ -1,6 +1,7 @@
 //! What comes in, what goes out, and what is kept of a session.
 
 pub use super::dialogue::Rung;
+use crate::exercise::shader::{Job, Ran};
 use crate::judge::Why;
 use crate::opinion::Finding;
 use crate::view::Stage;
@@ -42,6 +43,8 @@ pub enum Msg {
         /// What came back, unchecked; or why nothing did.
         said: Result<Vec<Finding>, String>,
     },
+    /// What came of the shader that [`Effect::Run`] asked to have run.
+    Ran(Ran),
     /// The log could not be written, and why.
     SaveFailed(String),
     /// Everything handed out by [`Effect::Save`] so far is on the disk.
@@ -76,6 +79,8 @@ pub enum Effect {
     },
     /// The learner waits for it no longer.
     StopConsulting,
+    /// Have the learner's shader run, somewhere it can do no harm, and answer with [`Msg::Ran`].
+    Run(Box<Job>),
     /// Leave.
     Quit,
 }

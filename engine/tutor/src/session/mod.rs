@@ -15,11 +15,13 @@ mod problem;
 pub mod progress;
 mod question;
 mod reply;
+mod run;
 mod screen;
 mod show;
 mod show_dialogue;
 mod show_problem;
 mod show_question;
+mod show_shader;
 pub mod transcript;
 
 pub use event::{Effect, Event, Grade, Msg, NotedSlip, Quote, Rung};
@@ -66,6 +68,8 @@ pub struct Session {
     /// A replayed event did not fit the lesson or the program.
     diverged: bool,
     finished: Option<(Grade, String)>,
+    /// The shader that runs elsewhere.
+    running: Option<run::Running>,
     /// Decided on resuming, and saved with the next message.
     pending: Vec<Event>,
     /// Second opinions are to be had.
@@ -89,6 +93,7 @@ impl Session {
             skipped: BTreeSet::new(),
             diverged: false,
             finished: None,
+            running: None,
             pending: Vec::new(),
             consults: false,
             waiting: None,

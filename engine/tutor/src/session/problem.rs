@@ -23,6 +23,8 @@ pub(super) struct Problem {
     pub(super) asked: Vec<String>,
     /// What was said, in order.
     pub(super) turns: Vec<Turn>,
+    /// A text being written, not handed in.
+    pub(super) draft: Option<String>,
 }
 
 /// One exchange.
@@ -75,7 +77,7 @@ impl Problem {
         let mut asked: Vec<String> = match &exercise.task {
             Task::Numeric { steps } => steps.iter().map(|step| step.name.text.clone()).collect(),
             Task::FindTheMistake { .. } => vec!["line".to_owned(), "answer".to_owned()],
-            Task::Choice { .. } | Task::Order { .. } => vec![WHOLE.to_owned()],
+            Task::Choice { .. } | Task::Order { .. } | Task::Shader(_) => vec![WHOLE.to_owned()],
         };
         asked.drain(..last.map_or(0, |last| asked.len().saturating_sub(last)));
         Problem {
@@ -86,6 +88,7 @@ impl Problem {
             answered_to: None,
             asked,
             turns: Vec::new(),
+            draft: None,
         }
     }
 
@@ -159,6 +162,16 @@ impl Problem {
                 }
             })
             .collect()
+    }
+
+    /// The text of a shader as it stands: the draft, else the last one run, else the lesson's.
+    pub(super) fn text(&self, source: &str) -> String {
+        let attempts = self.turns.iter().rev().filter_map(|turn| match turn {
+            Turn::Attempt { text, .. } => Some(text),
+            Turn::Hint { .. } | Turn::GoneOn { .. } => None,
+        });
+        let last = self.draft.as_ref().or(attempts.into_iter().next());
+        last.map_or(source, String::as_str).to_owned()
     }
 
     /// Every step is settled.

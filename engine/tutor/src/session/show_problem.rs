@@ -5,6 +5,7 @@ use super::problem::{Problem, Turn, WHOLE};
 use super::screen::Screen;
 use super::show::{capital, paragraph, text, verdict};
 use super::show_question::count;
+use super::show_shader;
 use crate::exercise;
 use crate::lesson::{Exercise, Lesson, Task};
 use crate::prose::{Block, Inline, Tone};
@@ -76,6 +77,7 @@ fn heading(screen: &Screen, exercise: &Exercise, problem: &Problem) -> String {
         Task::Choice { .. } => "Choose one",
         Task::Order { .. } => "Put them in order",
         Task::FindTheMistake { .. } => "Find the mistake",
+        Task::Shader(_) => "Mend the shader",
     };
     let task = exercise.title.as_ref().map_or(task, |title| &title.text);
     match screen {
@@ -173,6 +175,27 @@ fn said(lesson: &Lesson, exercise: &Exercise, problem: &Problem, turn: &Turn) ->
             mistake,
             named: by_author,
             says,
+        } if exercise.kind() == "shader" => {
+            let (tone, title) = title(result, mistake.is_some(), *by_author);
+            let after = match problem.draw() {
+                Ok(draw) if result == "correct" && !problem.is_stale() => {
+                    exercise::after_right(lesson, exercise, draw, named(step))
+                }
+                _ if result == "correct" => Vec::new(),
+                _ => words(says),
+            };
+            let mut blocks = show_shader::changed(exercise, problem, turn, typed);
+            blocks.extend(under(tone, title, after));
+            blocks.extend(show_shader::picture(lesson, exercise, result, typed));
+            blocks
+        }
+        Turn::Attempt {
+            step,
+            text: typed,
+            result,
+            mistake,
+            named: by_author,
+            says,
         } => {
             let answer = vec![
                 text("You: "),
@@ -199,11 +222,7 @@ fn said(lesson: &Lesson, exercise: &Exercise, problem: &Problem, turn: &Turn) ->
                 }
                 return blocks;
             }
-            // The title says it already.
-            let says = says.strip_prefix("Not yet").map_or_else(
-                || says.clone(),
-                |rest| capital(rest.trim_start_matches([':', '.', ' '])),
-            );
+            let says = untitled(says);
             blocks.extend(under(tone, title, lesson.prose(&says, &Values::new())));
             blocks
         }
@@ -214,6 +233,19 @@ fn said(lesson: &Lesson, exercise: &Exercise, problem: &Problem, turn: &Turn) ->
             vec![paragraph(format!("Left as it is{more}."))]
         }
     }
+}
+
+/// What was said without what the title says already.
+fn untitled(says: &str) -> String {
+    says.strip_prefix("Not yet").map_or_else(
+        || says.to_owned(),
+        |rest| capital(rest.trim_start_matches([':', '.', ' '])),
+    )
+}
+
+/// What was said about a learner's own text: nothing in it is a template.
+fn words(says: &str) -> Vec<Block> {
+    crate::prose::markdown_alone(&untitled(says))
 }
 
 fn named(step: &str) -> Option<&str> {
@@ -294,6 +326,11 @@ pub(super) fn input(session: &Session, problem: &Problem, step: &str) -> Input {
         Task::Order { .. } => Input::Order {
             items: draw.shown.clone(),
         },
+        Task::Shader(shader) => Input::Code {
+            label: shader.function.text.clone(),
+            note: exercise::tolerance_words(exercise),
+            text: problem.text(&shader.source),
+        },
         Task::FindTheMistake { .. } if step == "line" => Input::Number {
             label: ask(problem, step),
             note: format!("its number, 1 to {}", draw.shown.len()),
@@ -328,6 +365,10 @@ pub(super) fn still_asked(session: &Session, screen: &Screen) -> Vec<Block> {
                 .map(|option| session.lesson.inline(option, &Values::new()))
                 .collect(),
         }],
+        Task::Shader(shader) => vec![
+            Block::CodeBlock(shader.source.trim_end().to_owned()),
+            paragraph(format!("Asked: {}.", exercise::tolerance_words(exercise))),
+        ],
         Task::Numeric { .. } | Task::FindTheMistake { .. } => {
             let open = problem.asked.iter().skip_while(|step| *step != current);
             let asks: Vec<String> = open.map(|step| ask(problem, step)).collect();
@@ -369,7 +410,7 @@ fn meant(exercise: &Exercise, problem: &Problem, typed: &str) -> Option<String> 
                 .filter(|texts| texts.len() == shown.len())
                 .map(|texts| texts.join(" → "))
         }
-        Task::Numeric { .. } | Task::FindTheMistake { .. } => None,
+        Task::Numeric { .. } | Task::FindTheMistake { .. } | Task::Shader(_) => None,
     }
 }
 

@@ -10,6 +10,7 @@ mod flow;
 mod listing;
 mod numbers;
 mod replay;
+mod shader;
 
 /// A small lesson that has every kind of screen.
 fn small() -> Arc<Lesson> {
@@ -42,6 +43,7 @@ fn send(session: &mut Session, msgs: impl IntoIterator<Item = Msg>) -> Vec<Event
                 Effect::Draw { .. }
                 | Effect::Consult { .. }
                 | Effect::StopConsulting
+                | Effect::Run(_)
                 | Effect::Quit => {}
             }
         }
@@ -110,6 +112,7 @@ fn input(session: &Session) -> &'static str {
         Input::Number { .. } => "number",
         Input::Text { .. } => "text",
         Input::Reply { .. } => "reply",
+        Input::Code { .. } => "code",
         Input::Choice { .. } => "choice",
         Input::Order { .. } => "order",
         Input::Checklist { .. } => "checklist",

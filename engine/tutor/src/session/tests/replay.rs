@@ -22,6 +22,7 @@ fn send(session: &mut Session, log: &mut Vec<Event>, msg: Msg) {
             Effect::Draw { .. }
             | Effect::Consult { .. }
             | Effect::StopConsulting
+            | Effect::Run(_)
             | Effect::Quit => {}
         }
     }
