@@ -155,6 +155,33 @@ fn an_unreadable_log_is_named_and_kept() {
 }
 
 #[test]
+fn a_log_of_a_newer_version_stays_where_it_is() {
+    for text in [
+        "format = 2\nlesson = \"smith-g2\"\n",
+        "format = 1\nprogram = \"9\"\nlesson = \"smith-g2\"\nhash = \"0\"\nseed = 7\nstarted = \"2020-01-01T00:00:00Z\"\n[[event]]\nkind = \"dreamt\"\n",
+    ] {
+        let home = tempfile::tempdir().expect("a folder");
+        let folder = home.path().join("p");
+        fs::create_dir(&folder).expect("writable");
+        let log = folder.join("2020-01-01T00-00-00Z-smith-g2.toml");
+        fs::write(&log, text).expect("writable");
+        let output = learn(home.path(), "smith-g2", "p", "\n");
+        assert_eq!(output.status.code(), Some(0));
+        assert!(
+            stdout(&output).contains("by a newer version"),
+            "{}",
+            stdout(&output)
+        );
+        assert!(
+            stderr(&output).contains("smith-g2.toml"),
+            "{}",
+            stderr(&output)
+        );
+        assert_eq!(fs::read_to_string(&log).expect("in its place"), text);
+    }
+}
+
+#[test]
 fn a_dumb_terminal_gets_plain_text_and_interrupting_saves() {
     let home = tempfile::tempdir().expect("a folder");
     let folder = home.path().join("p").display().to_string();

@@ -92,6 +92,15 @@ impl Sitting {
                 .file_name()
                 .unwrap_or_default()
                 .to_string_lossy();
+            if unreadable.is_newer {
+                notices.push(Notice {
+                    says: "A log was written by a newer version; it is left where it is, and \
+                           not read here."
+                        .into(),
+                    place: Some(format!("{name}: {}", unreadable.why)),
+                });
+                continue;
+            }
             let moved = match store.set_aside(unreadable) {
                 Ok(aside) => format!(
                     "set aside as {}",

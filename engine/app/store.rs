@@ -39,6 +39,8 @@ pub struct Log {
 pub struct Unreadable {
     pub path: PathBuf,
     pub why: String,
+    /// A newer version of the program can read it.
+    pub is_newer: bool,
 }
 
 /// Everything in the folder, oldest session first.
@@ -97,11 +99,17 @@ impl Store {
         let mut logs = Logs::default();
         for path in paths {
             let read = fs::read_to_string(&path)
-                .map_err(|error| plain_reason(&error))
-                .and_then(|text| Record::from_toml(&text).map_err(|error| error.to_string()));
+                .map_err(|error| (plain_reason(&error), false))
+                .and_then(|text| {
+                    Record::from_toml(&text).map_err(|error| (error.to_string(), error.is_newer))
+                });
             match read {
                 Ok(record) => logs.readable.push(Log { path, record }),
-                Err(why) => logs.unreadable.push(Unreadable { path, why }),
+                Err((why, is_newer)) => logs.unreadable.push(Unreadable {
+                    path,
+                    why,
+                    is_newer,
+                }),
             }
         }
         logs.readable

@@ -66,6 +66,8 @@ pub struct RecordError {
     pub column: usize,
     /// What is wrong and what to do.
     pub message: String,
+    /// It is a log all the same, of a version that knows more than this one.
+    pub is_newer: bool,
 }
 
 impl fmt::Display for RecordError {
@@ -226,8 +228,16 @@ fn check_format(text: &str, table: &DeTable<'_>) -> Result<(), RecordError> {
     if known {
         return Ok(());
     }
+    let number = format
+        .get_ref()
+        .as_integer()
+        .and_then(|n| n.as_str().parse::<u32>().ok());
     let message = format!("this log is not of format {FORMAT}, the one known here. {ADVICE}");
-    Err(error(text, format.span().start, &message))
+    let error = error(text, format.span().start, &message);
+    Err(match number {
+        Some(number) if number > FORMAT => newer(error),
+        _ => error,
+    })
 }
 
 fn read_entry(text: &str, value: Spanned<DeValue<'_>>) -> Result<Entry, RecordError> {
@@ -243,7 +253,7 @@ fn read_entry(text: &str, value: Spanned<DeValue<'_>>) -> Result<Entry, RecordEr
         Some((at, None)) => return Err(error(text, at.start, "`kind` must be a string")),
         Some((at, Some(kind))) if !Event::KINDS.contains(&kind) => {
             let message = format!("the event kind `{kind}` is not known here. {ADVICE}");
-            return Err(error(text, at.start, &message));
+            return Err(newer(error(text, at.start, &message)));
         }
         Some((_, Some(_))) => {}
     }
@@ -282,6 +292,15 @@ fn error(text: &str, offset: usize, message: &str) -> RecordError {
         line: before.matches('\n').count() + 1,
         column: before[line_start..].chars().count() + 1,
         message: message.to_owned(),
+        is_newer: false,
+    }
+}
+
+/// The same, of a log that a newer version wrote.
+fn newer(error: RecordError) -> RecordError {
+    RecordError {
+        is_newer: true,
+        ..error
     }
 }
 

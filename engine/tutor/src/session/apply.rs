@@ -405,7 +405,14 @@ impl Session {
                     self.problems.remove(&(item.clone(), 1));
                 }
                 Screen::Explain { item, .. } => {
-                    self.questions.remove(item);
+                    // Half an answer is still one; half a reply belongs to what is forgotten.
+                    let half = self
+                        .questions
+                        .remove(item)
+                        .filter(Question::is_being_answered);
+                    if let Some(Question { draft, .. }) = half {
+                        self.question(item).draft = draft;
+                    }
                 }
                 Screen::Why | Screen::Step(_) | Screen::Reteach { .. } | Screen::Result => {}
             }

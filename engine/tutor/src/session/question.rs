@@ -192,6 +192,11 @@ impl Question {
         self.tries.last()
     }
 
+    /// What stands in the field is an answer, not a reply.
+    pub(super) fn is_being_answered(&self) -> bool {
+        self.last().is_none_or(|last| last.asked.is_none())
+    }
+
     /// The first try is settled and did not pass.
     pub(super) fn wants_second_try(&self, rubric: &Rubric) -> bool {
         self.tries

@@ -266,6 +266,37 @@ fn a_draft_waits_for_its_writer() {
 }
 
 #[test]
+fn a_draft_outlives_a_change_of_the_lesson() {
+    let resumed = |log: &[Event]| {
+        let start = Start {
+            seed: 7,
+            slips: Vec::new(),
+        };
+        let (mut s, notice) = Session::resume(small(), start, "another hash", log);
+        assert!(notice.is_some_and(|says| says.contains("changed")));
+        walk_to(&mut s, QUESTION);
+        match &s.screen().input {
+            Input::Text { draft, .. } => draft.clone(),
+            other => panic!("{other:?}"),
+        }
+    };
+    let mut s = begin();
+    let mut log = Vec::new();
+    while s.screen().key != QUESTION {
+        log.extend(send(&mut s, [Msg::Skip]));
+    }
+    log.extend(send(&mut s, [Msg::Draft("It mult".into())]));
+    assert_eq!(resumed(&log), "It mult");
+    // Half a reply is no answer.
+    log.extend(send(
+        &mut s,
+        [answer("It multiplies the number by itself.")],
+    ));
+    log.extend(send(&mut s, [Msg::Draft("a leng".into())]));
+    assert_eq!(resumed(&log), "");
+}
+
+#[test]
 fn an_answer_that_tries_to_be_a_template_stays_what_it_is() {
     let mut s = at_question();
     send(&mut s, [answer("{{ pi }} **bold** `code`")]);
