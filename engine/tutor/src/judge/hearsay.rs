@@ -26,6 +26,7 @@ const AT_FIRST: &[&[&str]] = &[
     &["initially", "i"],
     &["i", "initially"],
     &["i", "assumed"],
+    &["tempted", "to"],
     &["i", "would", "say"],
     &["i", "could", "say"],
 ];
