@@ -348,6 +348,20 @@ pub fn raw(fingerprint: &Fingerprint<'_>, options: &Options) -> Result<Raw, Erro
     })
 }
 
+/// At how many points, over all lights, the formulas are evaluated for a picture.
+///
+/// # Errors
+/// As [`render`].
+pub fn shaded_points(fingerprint: &Fingerprint<'_>, options: &Options) -> Result<u64, Error> {
+    let plan = Plan::of(fingerprint, options.skip);
+    let shown = Shown {
+        exposure: 1.0,
+        raw: true,
+    };
+    let drawn = draw_panels(fingerprint, options, &plan, shown, &AtomicBool::new(false))?;
+    Ok(drawn.shaded.points)
+}
+
 /// Both panels, and how they came about.
 struct Drawn {
     panel: Panel,
