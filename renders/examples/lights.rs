@@ -48,7 +48,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let right = formula::parse("d_ggx() * v_ggx() * f_schlick() * n_dot_l")?;
     let wrong =
         formula::parse("d_ggx() * v_ggx() * f_schlick() * n_dot_l / (4 * n_dot_l * n_dot_v)")?;
-    println!("{LIGHTS} lights, {size}² pixels, milliseconds, best of {ROUNDS} rounds taken in turns");
+    println!(
+        "{LIGHTS} lights, {size}² pixels, milliseconds, best of {ROUNDS} rounds taken in turns"
+    );
     println!(
         "{:36} {:>9} {:>9} {:>7} {:>11} {:>11} {:>7}",
         "", "skipping", "all", "times", "points", "points", "times"

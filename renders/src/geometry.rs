@@ -233,17 +233,23 @@ impl Geometry {
         found
     }
 
-    /// The point of the sphere seen at (`x`, `y`), lit or not; `None` off the disc.
-    pub fn point(&self, x: f64, y: f64) -> Option<Point> {
-        let q2 = 1.0 - (x * x + y * y);
-        (q2 >= 0.0).then(|| self.at(x, y, q2.sqrt()))
-    }
-
     /// The place that is seen towards the light, or away from it, at angle `psi` (radians) from
     /// the disc's centre: at sin psi of the outline's radius, in radii, and q there.
     pub fn place(&self, psi: f64) -> [f64; 3] {
         let (sin, cos) = psi.sin_cos();
         [sin * self.turn.0, sin * self.turn.1, cos]
+    }
+
+    /// N·L where [`Geometry::is_distant`].
+    #[inline]
+    pub fn distant_n_dot_l(&self, n: [f64; 3]) -> f64 {
+        dot(n, self.light)
+    }
+
+    /// N·H where [`Geometry::is_distant`].
+    #[inline]
+    pub fn distant_n_dot_h(&self, n: [f64; 3]) -> f64 {
+        dot(n, self.half).min(1.0)
     }
 
     /// The point seen at (`x`, `y`), with q = √(1 − x² − y²).
@@ -252,9 +258,9 @@ impl Geometry {
         if self.is_distant() {
             let n = [x, y, q];
             return Point {
-                n_dot_l: dot(n, self.light),
+                n_dot_l: self.distant_n_dot_l(n),
                 n_dot_v: q,
-                n_dot_h: dot(n, self.half).min(1.0),
+                n_dot_h: self.distant_n_dot_h(n),
                 v_dot_h: self.v_dot_h,
                 l_dot_v: self.l_dot_v,
                 arrives: 1.0,

@@ -5,8 +5,11 @@ use crate::geometry::{Geometry, Point, Stretches};
 use crate::scene::{VARYING, column};
 use std::ops::Range;
 
-/// Lines in a pixel that an edge crosses, and points on each.
+/// Lines in a pixel that an edge crosses, and points on each where it is the outline.
 const EDGE_GRID: usize = 4;
+
+/// Up to this share of a line's half, nothing grows as it does towards the outline.
+const INNER: f64 = 0.95;
 
 /// A square panel of `size` pixels with the sphere in its middle.
 #[derive(Clone, Copy, Debug)]
@@ -29,7 +32,7 @@ pub(crate) enum Input<'a> {
     Varying(&'a [f64]),
 }
 
-/// The samples of some rows under one light: columns of inputs, and which pixel each belongs to.
+/// The samples of some rows under one light: columns of inputs, and which pixels they belong to.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Samples {
     /// The values of [`VARYING`]; empty where they are all the same or not needed.
@@ -40,8 +43,38 @@ pub(crate) struct Samples {
     near: bool,
     /// How much of the light arrives; empty where all of it does.
     pub arrives: Vec<f64>,
-    /// The pixel's index in the panel, and the share of it that the sample stands for.
-    pub pixel: Vec<(u32, f32)>,
+    /// What the samples stand for, in their order.
+    spans: Vec<Span>,
+    /// The share of its pixel that each sample at an edge stands for.
+    shares: Vec<f32>,
+}
+
+/// Some samples that follow each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Span {
+    /// One for each of so many whole pixels from this one on.
+    Pixels { pixel: u32, count: u32 },
+    /// So many in one pixel.
+    Edge { pixel: u32, count: u32 },
+    /// So many that nobody sees.
+    Unseen { count: u32 },
+}
+
+/// Some samples, and what they stand for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Part<'a> {
+    /// The samples from `first` on are those of the whole pixels from `pixel` on.
+    Pixels {
+        first: usize,
+        pixel: usize,
+        count: usize,
+    },
+    /// The samples from `first` on stand for these shares of a pixel.
+    Edge {
+        first: usize,
+        pixel: usize,
+        shares: &'a [f32],
+    },
 }
 
 impl Samples {
@@ -53,21 +86,58 @@ impl Samples {
     ) -> Self {
         let mut samples = Self::default();
         samples.start(geometry);
-        for (index, point) in points.into_iter().enumerate() {
-            samples.push(columns, &point, index as u32, 1.0);
+        for point in points {
+            samples.push(columns, &point);
         }
+        let count = samples.len() as u32;
+        samples.spans.push(Span::Pixels { pixel: 0, count });
         samples
     }
 
     pub fn len(&self) -> usize {
-        self.pixel.len()
+        self.columns[0].len()
+    }
+
+    /// The samples that are seen, in their order.
+    pub fn parts(&self) -> impl Iterator<Item = Part<'_>> {
+        let (mut next, mut edges) = (0, 0);
+        self.spans.iter().filter_map(move |span| {
+            let first = next;
+            match *span {
+                Span::Pixels { pixel, count } => {
+                    let (pixel, count) = (pixel as usize, count as usize);
+                    next += count;
+                    Some(Part::Pixels {
+                        first,
+                        pixel,
+                        count,
+                    })
+                }
+                Span::Edge { pixel, count } => {
+                    next += count as usize;
+                    let shares = &self.shares[edges..edges + count as usize];
+                    edges += count as usize;
+                    let pixel = pixel as usize;
+                    Some(Part::Edge {
+                        first,
+                        pixel,
+                        shares,
+                    })
+                }
+                Span::Unseen { count } => {
+                    next += count as usize;
+                    None
+                }
+            }
+        })
     }
 
     /// Empties all columns for the points under this light.
     fn start(&mut self, geometry: &Geometry) {
         self.columns.iter_mut().for_each(Vec::clear);
         self.arrives.clear();
-        self.pixel.clear();
+        self.spans.clear();
+        self.shares.clear();
         self.near = geometry.is_near_light();
         let (v_dot_h, l_dot_v) = geometry.of_distant();
         self.uniform[column::V_DOT_H] = v_dot_h;
@@ -76,7 +146,7 @@ impl Samples {
     }
 
     #[inline]
-    fn push(&mut self, wanted: &[bool; VARYING.len()], point: &Point, pixel: u32, share: f32) {
+    fn push(&mut self, wanted: &[bool; VARYING.len()], point: &Point) {
         self.columns[0].push(point.n_dot_l);
         self.columns[1].push(point.n_dot_v);
         self.columns[2].push(point.n_dot_h);
@@ -95,7 +165,27 @@ impl Samples {
         if self.near {
             self.arrives.push(point.arrives);
         }
-        self.pixel.push((pixel, share));
+    }
+
+    /// [`Samples::push`] of places that follow each other on a line, at once where that is
+    /// possible.
+    fn push_line(
+        &mut self,
+        wanted: &[bool; VARYING.len()],
+        geometry: &Geometry,
+        places: impl Iterator<Item = [f64; 3]> + Clone,
+    ) {
+        let simple = geometry.is_distant() && wanted[column::COS_PHI..].iter().all(|it| !it);
+        if simple {
+            let [n_dot_l, n_dot_v, n_dot_h, ..] = &mut self.columns;
+            n_dot_l.extend(places.clone().map(|n| geometry.distant_n_dot_l(n)));
+            n_dot_v.extend(places.clone().map(|n| n[2]));
+            n_dot_h.extend(places.map(|n| geometry.distant_n_dot_h(n)));
+        } else {
+            for [x, y, q] in places {
+                self.push(wanted, &geometry.at(x, y, q));
+            }
+        }
     }
 
     /// One of [`VARYING`] from `start` up to, not including, `end`.
@@ -129,7 +219,7 @@ impl Panel {
 
     /// Position of a pixel coordinate in units of the outline's radius, to the right.
     pub fn unit(&self, pixels: f64) -> f64 {
-        (pixels - self.size as f64 / 2.0) / self.outline()
+        (pixels - self.size as f64 / 2.0) * (1.0 / self.outline())
     }
 
     /// The same upwards.
@@ -155,7 +245,6 @@ impl Panel {
         samples.start(geometry);
         for row in first..last {
             let reach = self.row(geometry, row);
-            let y = self.up(row as f64 + 0.5);
             let columns = |span: &(f64, f64)| (span.0 as usize)..(span.1 as usize);
             let mut next = 0;
             for touched in reach.touched.as_slice().iter().map(columns) {
@@ -168,11 +257,9 @@ impl Panel {
                     for column in next..filled.start {
                         self.edge(samples, geometry, &reach, column, row);
                     }
-                    for column in filled.clone() {
-                        if let Some(point) = geometry.point(self.unit(column as f64 + 0.5), y) {
-                            samples.push(&self.columns, &point, self.pixel(column, row), 1.0);
-                        }
-                    }
+                    self.line(samples, geometry, row, filled.clone());
+                    let (pixel, count) = (self.pixel(filled.start, row), filled.len() as u32);
+                    samples.spans.push(Span::Pixels { pixel, count });
                     next = filled.end;
                 }
                 for column in next..touched.end {
@@ -232,6 +319,21 @@ impl Panel {
         }
     }
 
+    /// One sample in the middle of each pixel of a row; what is outside the sphere counts as its
+    /// middle.
+    fn line(&self, samples: &mut Samples, geometry: &Geometry, row: usize, columns: Range<usize>) {
+        let y = self.up(row as f64 + 0.5);
+        let place = |column: usize| {
+            let x = self.unit(column as f64 + 0.5);
+            let q2 = 1.0 - (x * x + y * y);
+            match q2 >= 0.0 {
+                true => [x, y, q2.sqrt()],
+                false => [0.0, 0.0, 1.0],
+            }
+        };
+        samples.push_line(&self.columns, geometry, columns.map(place));
+    }
+
     /// Pixels that nobody sees: shaded to show what skipping saves, and counted for nothing.
     fn unseen(
         &self,
@@ -240,16 +342,10 @@ impl Panel {
         row: usize,
         columns: Range<usize>,
     ) {
-        if !self.everywhere {
-            return;
-        }
-        let y = self.up(row as f64 + 0.5);
-        for column in columns {
-            let x = self.unit(column as f64 + 0.5);
-            let point = geometry
-                .point(x, y)
-                .unwrap_or_else(|| geometry.at(0.0, 0.0, 1.0));
-            samples.push(&self.columns, &point, self.pixel(column, row), 0.0);
+        if self.everywhere && !columns.is_empty() {
+            let count = columns.len() as u32;
+            self.line(samples, geometry, row, columns);
+            samples.spans.push(Span::Unseen { count });
         }
     }
 
@@ -267,52 +363,62 @@ impl Panel {
         column: usize,
         row: usize,
     ) {
-        let before = samples.len();
+        let before = samples.shares.len();
         let (left, right) = (self.unit(column as f64), self.unit(column as f64 + 1.0));
         let whole = (right - left) * EDGE_GRID as f64;
-        for (y, line) in &reach.lines {
+        for &(y, ref line) in &reach.lines {
             for &(from, to) in line.as_slice() {
                 let (from, to) = (from.max(left), to.min(right));
                 if from < to {
-                    self.stretch(
-                        samples,
-                        geometry,
-                        (*y, from, to),
-                        whole,
-                        self.pixel(column, row),
-                    );
+                    self.stretch(samples, geometry, (y, from, to), whole);
                 }
             }
         }
-        if samples.len() == before {
+        let count = (samples.shares.len() - before) as u32;
+        if count > 0 {
+            let pixel = self.pixel(column, row);
+            samples.spans.push(Span::Edge { pixel, count });
+        } else {
             self.unseen(samples, geometry, row, column..column + 1);
         }
     }
 
     /// Samples one stretch of a line; a stretch as long as `whole` would stand for the whole
     /// pixel.
+    ///
+    /// Only at the outline does anything grow: away from it the middle of the stretch tells its
+    /// mean.
     fn stretch(
         &self,
         samples: &mut Samples,
         geometry: &Geometry,
         (y, from, to): (f64, f64, f64),
         whole: f64,
-        pixel: u32,
     ) {
         let rho = (1.0 - y * y).sqrt();
+        let mut push = |x: f64, q: f64, share: f64| {
+            let point = geometry.at(x, y, q);
+            if point.n_dot_l > 0.0 && point.n_dot_v > 0.0 {
+                samples.push(&self.columns, &point);
+                samples.shares.push(share as f32);
+            }
+        };
+        // In units of the half line: a stretch that stays this far from the outline is even.
+        if from.abs().max(to.abs()) < INNER * rho {
+            let x = f64::midpoint(from, to);
+            push(x, ((rho - x) * (rho + x)).sqrt(), (to - from) / whole);
+            return;
+        }
         let angle = |x: f64| (x / rho).clamp(-1.0, 1.0).asin();
         let (start, end) = (angle(from), angle(to));
-        let points: [(Point, f64); EDGE_GRID] = std::array::from_fn(|j| {
+        let places: [(f64, f64); EDGE_GRID] = std::array::from_fn(|j| {
             let t = start + (end - start) * (j as f64 + 0.5) / EDGE_GRID as f64;
-            let q = rho * t.cos();
-            (geometry.at(rho * t.sin(), y, q), q)
+            let (sin, cos) = t.sin_cos();
+            (rho * sin, rho * cos)
         });
-        let weight: f64 = points.iter().map(|(_, q)| q).sum();
-        for (point, q) in &points {
-            if point.n_dot_l > 0.0 && point.n_dot_v > 0.0 {
-                let share = (to - from) / whole * q / weight;
-                samples.push(&self.columns, point, pixel, share as f32);
-            }
+        let weight: f64 = places.iter().map(|(_, q)| q).sum();
+        for (x, q) in places {
+            push(x, q, (to - from) / whole * q / weight);
         }
     }
 }
@@ -338,12 +444,11 @@ mod tests {
     fn check_area(eye: Eye, light: Light, expected: f64) {
         let panel = panel();
         let samples = panel.samples(&Geometry::new(eye, &light), 0, panel.size);
-        let area: f64 = samples
-            .pixel
-            .iter()
-            .map(|(_, share)| f64::from(*share))
-            .sum::<f64>()
-            / panel.outline().powi(2);
+        let covered = |part: Part<'_>| match part {
+            Part::Pixels { count, .. } => count as f64,
+            Part::Edge { shares, .. } => shares.iter().map(|share| f64::from(*share)).sum(),
+        };
+        let area = samples.parts().map(covered).sum::<f64>() / panel.outline().powi(2);
         assert!(
             (area - expected).abs() < 2e-3 * expected,
             "{eye:?}, {light:?}: {area} instead of {expected}"

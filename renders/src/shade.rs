@@ -4,7 +4,7 @@ use crate::cpu::Cpu;
 use crate::error::Error;
 use crate::geometry::Geometry;
 use crate::gpu::Gpu;
-use crate::sample::{Panel, Samples};
+use crate::sample::{Panel, Part, Samples};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -14,6 +14,8 @@ const TILE: usize = 1 << 20;
 
 /// Rows of a panel that are sampled and evaluated together: their samples stay in the cache.
 const BAND: usize = 4;
+/// The same under several lights, each of which reaches fewer pixels of a row.
+const BAND_OF_LIGHTS: usize = 16;
 
 /// Values of both formulas at some samples, negative ones and NaN as 0, and their ratio.
 #[derive(Clone, Debug, Default)]
@@ -67,19 +69,6 @@ pub(crate) enum Engine {
     Gpu(Box<Gpu>),
     /// Nothing is to be evaluated.
     Idle,
-}
-
-impl Engine {
-    pub fn evaluate(&self, samples: &[Samples]) -> Result<Vec<Values>, Error> {
-        match self {
-            Self::Cpu(cpu) => Ok(samples
-                .iter()
-                .map(|samples| cpu.evaluate(samples))
-                .collect()),
-            Self::Gpu(gpu) => gpu.evaluate(samples),
-            Self::Idle => Ok(samples.iter().map(|_| Values::default()).collect()),
-        }
-    }
 }
 
 /// Both panels, or some rows of them, from the top.
@@ -140,11 +129,7 @@ impl Shaded {
     /// sample is cut at white by itself.
     fn add_only(&mut self, samples: &Samples, values: &Values, first: usize, job: &Job<'_>) {
         let weights = job.weights(0);
-        for (index, &(pixel, share)) in samples.pixel.iter().enumerate() {
-            if share == 0.0 {
-                continue;
-            }
-            let pixel = pixel as usize - first;
+        let mut add = |index: usize, pixel: usize, share: f32| {
             let (right, wrong) = (values.right[index], values.wrong[index]);
             let arrives = samples.arrives.get(index).copied().unwrap_or(1.0);
             for (channel, weight) in weights.iter().enumerate() {
@@ -166,6 +151,24 @@ impl Shaded {
                 0.0
             };
             self.stops[pixel] += share * stops(values.ratio[index]);
+        };
+        for part in samples.parts() {
+            match part {
+                Part::Pixels {
+                    first: index,
+                    pixel,
+                    count,
+                } => (0..count).for_each(|i| add(index + i, pixel - first + i, 1.0)),
+                Part::Edge {
+                    first: index,
+                    pixel,
+                    shares,
+                } => {
+                    for (i, share) in shares.iter().enumerate() {
+                        add(index + i, pixel - first, *share);
+                    }
+                }
+            }
         }
         for (stops, lit) in self.stops.iter_mut().zip(&self.lit) {
             *stops /= lit.max(f32::MIN_POSITIVE);
@@ -174,25 +177,71 @@ impl Shaded {
 
     /// Adds the samples under one of several lights to the linear values.
     fn add_light(&mut self, samples: &Samples, values: &Values, first: usize, weights: &[f64]) {
-        let mut lit = vec![0.0_f32; self.lit.len()];
-        for (index, &(pixel, share)) in samples.pixel.iter().enumerate() {
-            if share == 0.0 {
-                continue;
-            }
-            let pixel = pixel as usize - first;
-            let arrives = f64::from(share) * samples.arrives.get(index).copied().unwrap_or(1.0);
-            for (channel, weight) in weights.iter().enumerate() {
+        let channels = weights.len();
+        for part in samples.parts() {
+            let (from, pixel, count, shares) = match part {
+                Part::Pixels {
+                    first,
+                    pixel,
+                    count,
+                } => (first, pixel, count, None),
+                Part::Edge {
+                    first,
+                    pixel,
+                    shares,
+                } => (first, pixel, shares.len(), Some(shares)),
+            };
+            let pixel = pixel - first;
+            let arrives = samples.arrives.get(from..from + count);
+            let own = [
+                (&mut self.right, &values.right[from..from + count]),
+                (&mut self.wrong, &values.wrong[from..from + count]),
+            ];
+            for (sums, values) in own {
                 // Nothing, times an infinite value, is nothing here.
-                if *weight > 0.0 {
-                    let at = pixel * weights.len() + channel;
-                    self.right[at] += arrives * weight * values.right[index];
-                    self.wrong[at] += arrives * weight * values.wrong[index];
+                let shining = weights
+                    .iter()
+                    .enumerate()
+                    .filter(|(_, weight)| **weight > 0.0);
+                for (channel, weight) in shining {
+                    let value = |i: usize| match arrives {
+                        None => weight * values[i],
+                        Some(arrives) => arrives[i] * weight * values[i],
+                    };
+                    match shares {
+                        None if channels == 1 => {
+                            let sums = &mut sums[pixel..pixel + count];
+                            match arrives {
+                                None => sums
+                                    .iter_mut()
+                                    .zip(values)
+                                    .for_each(|(sum, value)| *sum += weight * value),
+                                Some(_) => sums
+                                    .iter_mut()
+                                    .enumerate()
+                                    .for_each(|(i, sum)| *sum += value(i)),
+                            }
+                        }
+                        None => {
+                            let sums = &mut sums[pixel * channels..(pixel + count) * channels];
+                            let sums = sums.iter_mut().skip(channel).step_by(channels);
+                            sums.enumerate().for_each(|(i, sum)| *sum += value(i));
+                        }
+                        Some(shares) => {
+                            let shares = shares.iter().enumerate();
+                            let mean: f64 = shares.map(|(i, s)| f64::from(*s) * value(i)).sum();
+                            sums[pixel * channels + channel] += mean;
+                        }
+                    }
                 }
             }
-            lit[pixel] += share;
-        }
-        for (whole, lit) in self.lit.iter_mut().zip(lit) {
-            *whole = whole.max(lit);
+            match shares {
+                None => self.lit[pixel..pixel + count].fill(1.0),
+                Some(shares) => {
+                    let lit = &mut self.lit[pixel];
+                    *lit = lit.max(shares.iter().sum());
+                }
+            }
         }
     }
 
@@ -290,27 +339,35 @@ impl Job<'_> {
         let first = rows.start * size;
         let several = self.lights.len() > 1;
         let mut part = Shaded::empty(rows.len() * size, self.channels, self.raw || several);
-        // A processor's cache holds one light's samples; a graphics processor wants them all.
-        let together = match engine {
-            Engine::Gpu(_) => self.lights.len(),
-            Engine::Cpu(_) | Engine::Idle => 1,
+        let add = |part: &mut Shaded, light: usize, samples: &Samples, values: &Values| {
+            part.points += samples.len() as u64;
+            match several {
+                true => part.add_light(samples, values, first, self.weights(light)),
+                false => part.add_only(samples, values, first, self),
+            }
         };
-        for (index, lights) in self.lights.chunks(together.max(1)).enumerate() {
-            let samples: Vec<Samples> = lights
-                .iter()
-                .map(|(geometry, _)| self.panel.samples(geometry, rows.start, rows.end))
-                .collect();
-            let values = engine.evaluate(&samples)?;
-            for (light, (samples, values)) in samples.iter().zip(&values).enumerate() {
-                part.points += samples.len() as u64;
-                match several {
-                    true => {
-                        let weights = self.weights(index * together + light);
-                        part.add_light(samples, values, first, weights);
-                    }
-                    false => part.add_only(samples, values, first, self),
+        let lights = self.lights.iter().enumerate();
+        match engine {
+            // A core's cache holds the samples under one light.
+            Engine::Cpu(cpu) => {
+                let mut samples = Samples::default();
+                for (light, (geometry, _)) in lights {
+                    self.panel
+                        .fill(&mut samples, geometry, rows.start, rows.end);
+                    add(&mut part, light, &samples, &cpu.evaluate(&samples));
                 }
             }
+            // A graphics processor wants them all at once.
+            Engine::Gpu(gpu) => {
+                let samples: Vec<Samples> = lights
+                    .map(|(_, (geometry, _))| self.panel.samples(geometry, rows.start, rows.end))
+                    .collect();
+                let values = gpu.evaluate(&samples)?;
+                for (light, (samples, values)) in samples.iter().zip(&values).enumerate() {
+                    add(&mut part, light, samples, values);
+                }
+            }
+            Engine::Idle => {}
         }
         if several {
             part.finish(self.channels, self);
@@ -327,6 +384,7 @@ impl Job<'_> {
     /// does not depend on how many threads there are.
     pub fn shade(&self, engine: &Engine, rows: Range<usize>) -> Result<Shaded, Error> {
         let band = match engine {
+            Engine::Cpu(_) if self.lights.len() > 1 => BAND_OF_LIGHTS,
             Engine::Cpu(_) | Engine::Idle => BAND,
             Engine::Gpu(_) => {
                 (TILE / self.panel.size / self.lights.len().max(1)).clamp(1, rows.len().max(1))
