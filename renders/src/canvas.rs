@@ -2,6 +2,8 @@
 
 use crate::colour::{Rgb, mix};
 use crate::text::{self, Weight};
+use std::io::Write;
+use std::ops::Range;
 
 /// Where a text stands relative to the point it is drawn at.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -15,20 +17,46 @@ pub enum Align {
 }
 
 /// Opaque sRGB pixels, rows from the top.
+///
+/// It may hold a part of its rows only: whatever is drawn elsewhere is lost. So a large picture
+/// can be drawn strip by strip, each time the same way.
 pub struct Canvas {
     width: usize,
     height: usize,
+    /// The rows that are held.
+    rows: Range<usize>,
     pixels: Vec<Rgb>,
 }
 
 impl Canvas {
     /// A canvas of one colour.
     pub fn new(width: usize, height: usize, paper: Rgb) -> Self {
+        Self::strip(width, height, 0..height, paper)
+    }
+
+    /// Some rows of a canvas of one colour.
+    pub fn strip(width: usize, height: usize, rows: Range<usize>, paper: Rgb) -> Self {
         Self {
             width,
             height,
-            pixels: vec![paper; width * height],
+            pixels: vec![paper; width * rows.len()],
+            rows,
         }
+    }
+
+    /// The rows that are held.
+    pub fn rows(&self) -> &Range<usize> {
+        &self.rows
+    }
+
+    /// Whether any row from `top` to `bottom` is held.
+    pub fn holds(&self, top: f32, bottom: f32) -> bool {
+        bottom >= self.rows.start as f32 && top <= self.rows.end as f32
+    }
+
+    /// Red, green, blue of every pixel that is held.
+    pub fn rgb(&self) -> &[u8] {
+        self.pixels.as_flattened()
     }
 
     /// Width in pixels.
@@ -59,10 +87,10 @@ impl Canvas {
         let (Ok(column), Ok(row)) = (usize::try_from(x), usize::try_from(y)) else {
             return;
         };
-        if column >= self.width || row >= self.height || coverage <= 0.0 {
+        if column >= self.width || !self.rows.contains(&row) || coverage <= 0.0 {
             return;
         }
-        let pixel = &mut self.pixels[row * self.width + column];
+        let pixel = &mut self.pixels[(row - self.rows.start) * self.width + column];
         *pixel = if coverage >= 1.0 {
             colour
         } else {
@@ -75,7 +103,8 @@ impl Canvas {
         let cover = |from: f32, to: f32, at: i32| {
             (to.min(at as f32 + 1.0) - from.max(at as f32)).clamp(0.0, 1.0)
         };
-        for row in y.floor() as i32..(y + height).ceil() as i32 {
+        let (first, last) = (self.rows.start as i32, self.rows.end as i32);
+        for row in (y.floor() as i32).max(first)..((y + height).ceil() as i32).min(last) {
             let vertical = cover(y, y + height, row);
             for column in x.floor() as i32..(x + width).ceil() as i32 {
                 let coverage = vertical * cover(x, x + width, column) * opacity;
@@ -96,7 +125,7 @@ impl Canvas {
     /// twice.
     pub fn strokes(&mut self, segments: &[[(f32, f32); 2]], width: f32, colour: Rgb, opacity: f32) {
         let reach = width / 2.0 + 1.0;
-        let bound = |pick: fn(&(f32, f32)) -> f32, limit: usize| {
+        let bound = |pick: fn(&(f32, f32)) -> f32, limits: &Range<usize>| {
             let values = segments
                 .iter()
                 .flatten()
@@ -105,14 +134,12 @@ impl Canvas {
             let (low, high) = values.fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), v| {
                 (low.min(v), high.max(v))
             });
-            let low = (low - reach).floor().clamp(0.0, limit as f32) as usize;
-            (
-                low,
-                (high + reach).ceil().clamp(low as f32, limit as f32) as usize,
-            )
+            let (first, last) = (limits.start as f32, limits.end as f32);
+            let low = (low - reach).floor().clamp(first, last) as usize;
+            (low, (high + reach).ceil().clamp(low as f32, last) as usize)
         };
-        let (left, right) = bound(|p| p.0, self.width);
-        let (top, bottom) = bound(|p| p.1, self.height);
+        let (left, right) = bound(|p| p.0, &(0..self.width));
+        let (top, bottom) = bound(|p| p.1, &self.rows);
         let columns = right - left;
         let mut coverage = vec![0.0_f32; columns * (bottom - top)];
         for &[(x0, y0), (x1, y1)] in segments {
@@ -123,6 +150,7 @@ impl Canvas {
             }
             let first = ((y0.min(y1) - reach).floor().max(top as f32)) as usize;
             let last = ((y0.max(y1) + reach).ceil().min(bottom as f32)).max(0.0) as usize;
+            // Empty where the segment is in no row that is held.
             for row in first..last {
                 let y = row as f32 + 0.5;
                 let from = ((x0.min(x1) - reach).floor().max(left as f32)) as usize;
@@ -194,6 +222,9 @@ impl Canvas {
             align,
             colour,
         } = style;
+        if !self.holds(y - 1.5 * em, y + 0.7 * em) {
+            return;
+        }
         let start = x - text::width(line, em, weight) * align.share();
         let (left, base) = (start.floor(), y.round() as i32);
         text::rasterise(line, em, weight, start - left, |dx, dy, coverage| {
@@ -264,15 +295,23 @@ pub fn png(width: u32, height: u32, rgba: &[u8]) -> Vec<u8> {
         .flat_map(|p| [p[0], p[1], p[2]])
         .collect();
     let mut file = Vec::new();
-    let mut encoder = png::Encoder::new(&mut file, width, height);
+    // Writing to memory fails only if the buffer and the header disagree, which they cannot.
+    let written =
+        png_header(&mut file, width, height).and_then(|mut writer| writer.write_image_data(&rgb));
+    debug_assert!(written.is_ok(), "{written:?}");
+    file
+}
+
+/// The start of a PNG file of red, green and blue bytes, tagged as sRGB.
+pub fn png_header<W: Write>(
+    to: W,
+    width: u32,
+    height: u32,
+) -> Result<png::Writer<W>, png::EncodingError> {
+    let mut encoder = png::Encoder::new(to, width, height);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_compression(png::Compression::Fast);
     encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
-    // Writing to memory fails only if the buffer and the header disagree, which they cannot.
-    let written = encoder
-        .write_header()
-        .and_then(|mut writer| writer.write_image_data(&rgb));
-    debug_assert!(written.is_ok(), "{written:?}");
-    file
+    encoder.write_header()
 }

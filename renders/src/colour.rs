@@ -16,6 +16,12 @@ pub fn srgb_encode(linear: f64) -> f64 {
 /// The sRGB curve as a table, for the many pixels of a panel: within a quarter of a level.
 pub struct EncodeTable(Vec<f32>);
 
+impl Default for EncodeTable {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl EncodeTable {
     const STEPS: usize = 1 << 14;
 

@@ -2,15 +2,17 @@
 
 use crate::shade::Shaded;
 
-/// Segments of the contour in pixels, by marching over the squares between pixel centres.
-pub(crate) fn ratio_one(shaded: &Shaded, size: usize) -> Vec<[(f32, f32); 2]> {
+/// Segments of the contour in pixels, by marching over the squares between pixel centres. The
+/// first of the shaded rows is the panel's row `first`.
+pub(crate) fn ratio_one(shaded: &Shaded, size: usize, first: usize) -> Vec<[(f32, f32); 2]> {
     // Only whole lit pixels: an edge pixel's mean belongs to a part of it.
     let field = |column: usize, row: usize| {
         let index = row * size + column;
         (shaded.lit[index] > 0.99).then(|| shaded.stops[index])
     };
     let mut segments = Vec::new();
-    for row in 0..size.saturating_sub(1) {
+    let rows = shaded.lit.len() / size;
+    for row in 0..rows.saturating_sub(1) {
         for column in 0..size.saturating_sub(1) {
             let corners = [(0, 0), (1, 0), (1, 1), (0, 1)];
             let values = corners.map(|(dx, dy)| field(column + dx, row + dy).unwrap_or(f32::NAN));
@@ -27,7 +29,7 @@ pub(crate) fn ratio_one(shaded: &Shaded, size: usize) -> Vec<[(f32, f32); 2]> {
                     let at = |corner: (usize, usize)| {
                         (
                             (column + corner.0) as f32 + 0.5,
-                            (row + corner.1) as f32 + 0.5,
+                            (first + row + corner.1) as f32 + 0.5,
                         )
                     };
                     let (from, to) = (at(corners[side]), at(corners[(side + 1) % 4]));

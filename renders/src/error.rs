@@ -20,6 +20,8 @@ pub enum Error {
     Scene(String),
     /// The size asked for is zero or larger than [`crate::MAX_SIZE`].
     Size(u32),
+    /// The picture cannot be written where it should be.
+    Write(String),
     /// The plot has nothing to draw, or no room to draw it.
     Plot(String),
     /// The caller asked to stop.
@@ -48,6 +50,7 @@ impl fmt::Display for Error {
                     crate::MAX_SIZE
                 )
             }
+            Self::Write(why) => write!(f, "the picture cannot be written: {why}"),
             Self::Plot(why) => write!(f, "the plot cannot be drawn: {why}"),
             Self::Cancelled => write!(f, "drawing was cancelled"),
         }

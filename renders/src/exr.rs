@@ -5,45 +5,31 @@
 
 use crate::Raw;
 
-/// A channel's name and its values, rows from the top.
-type Channel<'a> = (&'a str, &'a [f64]);
-
 impl Raw {
     /// Both panels as the layers `buggy` and `correct` of an OpenEXR file.
     pub fn exr(&self) -> Vec<u8> {
-        let channels = self.channels.max(1) as usize;
-        let pick = |values: &[f64], channel: usize| -> Vec<f64> {
-            values
-                .iter()
-                .skip(channel)
-                .step_by(channels)
-                .copied()
-                .collect()
-        };
-        // Channels stand in alphabetical order: the format asks for it.
-        let names: &[(&str, usize)] = match channels {
-            3 => &[("B", 2), ("G", 1), ("R", 0)],
-            _ => &[("Y", 0)],
-        };
-        let layers = [("buggy", &self.wrong), ("correct", &self.right)];
-        let planes: Vec<(String, Vec<f64>)> = layers
-            .iter()
-            .flat_map(|(layer, values)| {
-                let plane = |(name, channel): &(&str, usize)| {
-                    (format!("{layer}.{name}"), pick(values, *channel))
-                };
-                names.iter().map(plane).collect::<Vec<_>>()
-            })
-            .collect();
-        let list: Vec<Channel<'_>> = planes
-            .iter()
-            .map(|(name, values)| (name.as_str(), values.as_slice()))
-            .collect();
-        write(self.size as usize, &list)
+        let (size, channels) = (self.size as usize, self.channels.max(1) as usize);
+        let mut file = header(size, channels);
+        file.extend(rows(size, channels, 0, &self.right, &self.wrong));
+        file
     }
 }
 
-fn write(size: usize, channels: &[Channel<'_>]) -> Vec<u8> {
+/// A layer's channels and where they stand in a pixel, in alphabetical order: the format asks
+/// for it.
+fn names(channels: usize) -> &'static [(&'static str, usize)] {
+    match channels {
+        3 => &[("B", 2), ("G", 1), ("R", 0)],
+        _ => &[("Y", 0)],
+    }
+}
+
+fn row_bytes(size: usize, channels: usize) -> usize {
+    2 * channels * size * size_of::<f32>()
+}
+
+/// All before the first row: what the file holds, and where each row begins.
+pub(crate) fn header(size: usize, channels: usize) -> Vec<u8> {
     let mut file = vec![0x76, 0x2f, 0x31, 0x01, 2, 0, 0, 0];
     let mut attribute = |name: &str, kind: &str, value: &[u8]| {
         for text in [name, kind] {
@@ -54,8 +40,11 @@ fn write(size: usize, channels: &[Channel<'_>]) -> Vec<u8> {
         file.extend_from_slice(value);
     };
     let mut list = Vec::new();
-    for (name, _) in channels {
-        list.extend_from_slice(name.as_bytes());
+    for (layer, (name, _)) in ["buggy", "correct"]
+        .iter()
+        .flat_map(|layer| names(channels).iter().map(move |name| (layer, name)))
+    {
+        list.extend_from_slice(format!("{layer}.{name}").as_bytes());
         list.push(0);
         // Kind 2 is a 32-bit float; then "perceptually linear" and padding; then every sample of
         // both axes.
@@ -79,18 +68,34 @@ fn write(size: usize, channels: &[Channel<'_>]) -> Vec<u8> {
     attribute("screenWindowWidth", "float", &1.0_f32.to_le_bytes());
     file.push(0);
 
-    let row_bytes = size * channels.len() * size_of::<f32>();
     let first = file.len() + 8 * size;
     for row in 0..size {
-        let offset = (first + row * (8 + row_bytes)) as u64;
+        let offset = (first + row * (8 + row_bytes(size, channels))) as u64;
         file.extend_from_slice(&offset.to_le_bytes());
     }
-    for row in 0..size {
-        file.extend_from_slice(&(row as u32).to_le_bytes());
-        file.extend_from_slice(&(row_bytes as u32).to_le_bytes());
-        for (_, values) in channels {
-            for value in &values[row * size..(row + 1) * size] {
-                file.extend_from_slice(&(*value as f32).to_le_bytes());
+    file
+}
+
+/// The rows from `first` on, as many as there are values.
+pub(crate) fn rows(
+    size: usize,
+    channels: usize,
+    first: usize,
+    right: &[f64],
+    wrong: &[f64],
+) -> Vec<u8> {
+    let bytes = row_bytes(size, channels);
+    let mut file = Vec::with_capacity((8 + bytes) * (right.len() / size / channels));
+    let layers = |start: usize| [&wrong[start..], &right[start..]];
+    for (row, start) in (0..right.len()).step_by(size * channels).enumerate() {
+        file.extend_from_slice(&((first + row) as u32).to_le_bytes());
+        file.extend_from_slice(&(bytes as u32).to_le_bytes());
+        for layer in layers(start) {
+            for (_, channel) in names(channels) {
+                let values = layer[..size * channels].iter().skip(*channel);
+                for value in values.step_by(channels) {
+                    file.extend_from_slice(&(*value as f32).to_le_bytes());
+                }
             }
         }
     }

@@ -8,7 +8,7 @@
 //! it is a stretch in the angle t of x = ρ sin t, q = ρ cos t.
 
 use crate::scene::{Eye, Light};
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::FRAC_PI_2;
 
 /// The values of one shaded point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -215,20 +215,29 @@ impl Geometry {
         let rho = (1.0 - y * y).sqrt();
         let [across, up, towards] = self.lens;
         let needed = self.least - y * up;
-        let most = rho * across.hypot(towards);
-        if most > needed.abs() {
-            let (middle, half) = (across.atan2(towards), (needed / most).acos());
-            let x = |t: f64| match t {
-                t if t <= -FRAC_PI_2 => -rho,
-                t if t >= FRAC_PI_2 => rho,
-                t => rho * t.sin(),
-            };
-            // A light from behind may reach around both sides.
-            for turn in [-TAU, 0.0, TAU] {
-                found.push((x(middle + turn - half), x(middle + turn + half)));
+        let ends = [-rho * across > needed, rho * across > needed];
+        // Where across · x + towards · q is just what is needed, on the circle x² + q² = ρ²:
+        // two places, of which those on the seen half, q > 0, are edges.
+        let length2 = across * across + towards * towards;
+        let root = (length2 * rho * rho - needed * needed).sqrt();
+        let edge = |root: f64| {
+            let (x, q) = (
+                (needed * across - towards * root) / length2,
+                (needed * towards + across * root) / length2,
+            );
+            (q > 0.0).then(|| x.clamp(-rho, rho))
+        };
+        // No root is no edge.
+        match (edge(root), edge(-root)) {
+            (Some(a), Some(b)) if ends[0] && ends[1] => {
+                found.push((-rho, a.min(b)));
+                found.push((a.max(b), rho));
             }
-        } else if needed < 0.0 {
-            found.push((-rho, rho));
+            (Some(a), Some(b)) => found.push((a.min(b), a.max(b))),
+            (Some(at), None) | (None, Some(at)) if ends[0] && !ends[1] => found.push((-rho, at)),
+            (Some(at), None) | (None, Some(at)) if ends[1] && !ends[0] => found.push((at, rho)),
+            _ if rho * towards > needed => found.push((-rho, rho)),
+            _ => {}
         }
         found
     }

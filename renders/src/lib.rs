@@ -36,6 +36,7 @@ mod profile;
 mod sample;
 mod scene;
 mod shade;
+mod stream;
 mod text;
 mod visibility;
 
@@ -51,12 +52,15 @@ pub use map::{MapSpec, Scale, map_png};
 pub use own::{Own, profile_own, render_own};
 pub use profile::{ProfilePoint, point_at, profile};
 pub use scene::{Eye, Light, RADIUS, Scene};
+pub use stream::{write_exr, write_png};
 pub use visibility::Visibility;
 
-use crate::colour::EncodeTable;
+use crate::canvas::Canvas;
+use crate::colour::{DARK, EncodeTable};
 use crate::cpu::Cpu;
 use crate::device::Wanted;
 use crate::gpu::Gpu;
+use crate::picture::Page;
 use crate::plan::Plan;
 use crate::profile::Profile;
 use crate::sample::Panel;
@@ -67,7 +71,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 /// Largest panel in pixels a side.
-pub const MAX_SIZE: u32 = 4096;
+pub const MAX_SIZE: u32 = 8192;
 const MIN_SIZE: u32 = 16;
 /// Panels smaller than this are drawn without text: it could not be read.
 const LEAST_WITH_TEXT: u32 = 96;
@@ -281,14 +285,10 @@ fn render_planned(
     let canvas = if options.compact || options.size < LEAST_WITH_TEXT {
         picture::compact(&drawn.panel, &drawn.shaded)
     } else {
-        picture::full(
-            fingerprint,
-            &drawn.panel,
-            &drawn.shaded,
-            &profile,
-            exposure,
-            &visibility,
-        )?
+        let page = Page::new(fingerprint, drawn.panel, &profile, exposure);
+        let mut canvas = Canvas::new(page.width, page.height, DARK.paper);
+        page.draw(&mut canvas, (&drawn.shaded, 0), &visibility)?;
+        canvas
     };
     let pixels = u64::from(options.size).pow(2);
     Ok(Picture {
@@ -371,13 +371,14 @@ struct Drawn {
     device_ms: Option<f64>,
 }
 
-fn draw_panels(
+/// What is to be shaded.
+fn job<'a>(
     fingerprint: &Fingerprint<'_>,
     options: &Options,
     plan: &Plan,
     shown: Shown,
-    cancel: &AtomicBool,
-) -> Result<Drawn, Error> {
+    cancel: &'a AtomicBool,
+) -> Result<Job<'a>, Error> {
     if !(MIN_SIZE..=MAX_SIZE).contains(&options.size) {
         return Err(Error::Size(options.size));
     }
@@ -391,7 +392,7 @@ fn draw_panels(
     };
     let geometries = scene.geometries();
     let light = |&index: &usize| (geometries[index], scene.lights[index].weights());
-    let job = Job {
+    Ok(Job {
         panel,
         lights: plan.lights.iter().map(light).collect(),
         channels: if scene.is_grey() { 1 } else { 3 },
@@ -399,7 +400,37 @@ fn draw_panels(
         exposure: shown.exposure,
         raw: shown.raw,
         cancel,
+    })
+}
+
+/// What evaluates the formulas.
+fn engine(fingerprint: &Fingerprint<'_>, options: &Options, plan: &Plan) -> Result<Engine, Error> {
+    let gpu = |wanted| Gpu::new(wanted, fingerprint, plan).map(|gpu| Engine::Gpu(Box::new(gpu)));
+    let found = match options.backend {
+        // Whatever was asked for: what draws nothing need not be started.
+        _ if plan.lights.is_empty() => return Ok(Engine::Idle),
+        Backend::Gpu => return gpu(Wanted::Any),
+        Backend::Auto if device::may_be_there() => gpu(Wanted::Hardware).ok(),
+        Backend::Auto | Backend::Cpu => None,
     };
+    match found {
+        Some(engine) => Ok(engine),
+        None => {
+            let cpu = Cpu::new(fingerprint, plan, options.precision)?;
+            Ok(Engine::Cpu(Box::new(cpu)))
+        }
+    }
+}
+
+fn draw_panels(
+    fingerprint: &Fingerprint<'_>,
+    options: &Options,
+    plan: &Plan,
+    shown: Shown,
+    cancel: &AtomicBool,
+) -> Result<Drawn, Error> {
+    let job = job(fingerprint, options, plan, shown, cancel)?;
+    let panel = job.panel;
     if job.lights.is_empty() {
         // Whatever was asked for: what draws nothing need not be started.
         return Ok(Drawn {
@@ -426,10 +457,7 @@ fn draw_panels(
         let adapter = Some(gpu.adapter.clone());
         let engine = Engine::Gpu(Box::new(gpu));
         let shaded = shade(&job, &engine)?;
-        let device_ms = match &engine {
-            Engine::Gpu(gpu) => gpu.device_ms(),
-            _ => None,
-        };
+        let device_ms = engine.device_ms();
         Ok(Drawn {
             panel,
             shaded,

@@ -13,6 +13,7 @@ use crate::text::{Weight, shorten, wrap};
 use crate::visibility::Visibility;
 use crate::{Error, Eye, Fingerprint, Light};
 use std::array::from_fn;
+use std::ops::Range;
 
 /// The sphere where no light reaches it, in the ratio's panel.
 const UNLIT: Rgb = [9, 10, 13];
@@ -22,13 +23,8 @@ pub(crate) fn compact(panel: &Panel, shaded: &Shaded) -> Canvas {
     let size = panel.size;
     let gap = (size / 32).max(1);
     let mut canvas = Canvas::new(3 * size + 2 * gap, size, DARK.paper);
-    panels(
-        &mut canvas,
-        panel,
-        shaded,
-        [0, size + gap, 2 * (size + gap)],
-        0,
-    );
+    let columns = [0, size + gap, 2 * (size + gap)];
+    panels(&mut canvas, panel, (shaded, 0), columns, 0);
     canvas
 }
 
@@ -55,6 +51,10 @@ impl Layout {
         }
     }
 
+    fn chart_height(&self) -> f32 {
+        0.74 * self.size
+    }
+
     /// Left edge of a panel.
     fn column(&self, index: usize) -> f32 {
         self.margin + index as f32 * (self.size + self.gap)
@@ -62,99 +62,159 @@ impl Layout {
 }
 
 /// Panels, profile and words.
-pub(crate) fn full(
-    fingerprint: &Fingerprint<'_>,
-    panel: &Panel,
-    shaded: &Shaded,
-    profile: &Profile,
+pub(crate) struct Page<'a> {
+    fingerprint: &'a Fingerprint<'a>,
+    profile: &'a Profile,
+    panel: Panel,
     exposure: f64,
-    visibility: &Visibility,
-) -> Result<Canvas, Error> {
-    let layout = Layout::of(panel);
-    let Layout {
-        size,
-        em,
-        margin,
-        width,
-        ..
-    } = layout;
-    let caption = wrap(
-        &fingerprint.caption,
-        1.05 * em,
-        Weight::Regular,
-        width - 2.0 * margin,
-    );
-    let top = (margin + 1.4 * em + caption.len() as f32 * 1.55 * em + 4.2 * em).round();
-    let below = top + size + 1.1 * em;
-    let chart_height = 0.74 * size;
-    let notes = notes(fingerprint, profile, exposure);
-    let height = below + chart_height + (0.4 + 1.5 * notes.len() as f32) * em + 0.7 * margin;
-    let mut canvas = Canvas::new(width as usize, height.round() as usize, DARK.paper);
-
-    let title = shorten(
-        &fingerprint.title,
-        1.7 * em,
-        Weight::Bold,
-        width - 2.0 * margin,
-    );
-    let mut y = margin + 1.0 * em;
-    canvas.text(
-        margin,
-        y,
-        Style::new(1.7 * em, Weight::Bold, Align::Left, DARK.ink),
-        &title,
-    );
-    y += 0.35 * em;
-    for line in &caption {
-        y += 1.55 * em;
-        canvas.text(
-            margin,
-            y,
-            Style::new(1.05 * em, Weight::Regular, Align::Left, DARK.faint),
-            line,
-        );
-    }
-
-    let columns = [0, 1, 2].map(|index| layout.column(index) as usize);
-    panels(&mut canvas, panel, shaded, columns, top as usize);
-    headings(&mut canvas, &layout, fingerprint, top);
-    equator_ticks(&mut canvas, &layout, top);
-    let chart_width = 2.0 * size + layout.gap;
-    draw_profile(
-        &mut canvas,
-        (margin, below, chart_width, chart_height),
-        em,
-        fingerprint,
-        profile,
-        exposure,
-    )?;
-    let right = layout.column(2);
-    colour_bar(&mut canvas, right, below, size, em);
-    figures(&mut canvas, right, below + 4.6 * em, size, em, visibility);
-
-    let mut y = below + chart_height + 0.2 * em;
-    for note in &notes {
-        y += 1.5 * em;
-        let note = shorten(note, 0.95 * em, Weight::Regular, width - 2.0 * margin);
-        canvas.text(
-            margin,
-            y,
-            Style::new(0.95 * em, Weight::Regular, Align::Left, DARK.faint),
-            &note,
-        );
-    }
-    Ok(canvas)
+    layout: Layout,
+    caption: Vec<String>,
+    notes: Vec<String>,
+    /// Where the panels begin, and what stands below them.
+    top: f32,
+    below: f32,
+    pub width: usize,
+    pub height: usize,
 }
 
-/// Paints the three panels with their left edges at `columns`.
-fn panels(canvas: &mut Canvas, panel: &Panel, shaded: &Shaded, columns: [usize; 3], top: usize) {
+impl<'a> Page<'a> {
+    pub fn new(
+        fingerprint: &'a Fingerprint<'a>,
+        panel: Panel,
+        profile: &'a Profile,
+        exposure: f64,
+    ) -> Self {
+        let layout = Layout::of(&panel);
+        let Layout {
+            size,
+            em,
+            margin,
+            width,
+            ..
+        } = layout;
+        let caption = wrap(
+            &fingerprint.caption,
+            1.05 * em,
+            Weight::Regular,
+            width - 2.0 * margin,
+        );
+        let top = (margin + 1.4 * em + caption.len() as f32 * 1.55 * em + 4.2 * em).round();
+        let below = top + size + 1.1 * em;
+        let notes = notes(fingerprint, profile, exposure);
+        let chart = layout.chart_height();
+        let height = below + chart + (0.4 + 1.5 * notes.len() as f32) * em + 0.7 * margin;
+        Self {
+            fingerprint,
+            profile,
+            panel,
+            exposure,
+            layout,
+            caption,
+            notes,
+            top,
+            below,
+            width: width as usize,
+            height: height.round() as usize,
+        }
+    }
+
+    /// The panels' rows that some rows of the page show, and those whose contour reaches there.
+    pub fn panel_rows(&self, rows: &Range<usize>) -> (Range<usize>, Range<usize>) {
+        let (top, size) = (self.top as usize, self.panel.size);
+        let own = |row: usize| row.saturating_sub(top).min(size);
+        let reach = contour_width(size).ceil() as usize + 2;
+        let shown = own(rows.start)..own(rows.end);
+        let needed = shown.start.saturating_sub(reach)..(shown.end + reach).min(size);
+        match shown.is_empty() {
+            true => (shown.clone(), shown),
+            false => (shown, needed),
+        }
+    }
+
+    /// Draws what the canvas holds of the page. `shaded` starts at the panels' row `first`.
+    pub fn draw(
+        &self,
+        canvas: &mut Canvas,
+        (shaded, first): (&Shaded, usize),
+        visibility: &Visibility,
+    ) -> Result<(), Error> {
+        let Layout {
+            size,
+            em,
+            margin,
+            width,
+            ..
+        } = self.layout;
+        let title = shorten(
+            &self.fingerprint.title,
+            1.7 * em,
+            Weight::Bold,
+            width - 2.0 * margin,
+        );
+        let mut y = margin + 1.0 * em;
+        let style = Style::new(1.7 * em, Weight::Bold, Align::Left, DARK.ink);
+        canvas.text(margin, y, style, &title);
+        y += 0.35 * em;
+        for line in &self.caption {
+            y += 1.55 * em;
+            let style = Style::new(1.05 * em, Weight::Regular, Align::Left, DARK.faint);
+            canvas.text(margin, y, style, line);
+        }
+
+        let (top, below) = (self.top, self.below);
+        let columns = [0, 1, 2].map(|index| self.layout.column(index) as usize);
+        panels(canvas, &self.panel, (shaded, first), columns, top as usize);
+        headings(canvas, &self.layout, self.fingerprint, top);
+        profile_ticks(canvas, &self.layout, self.fingerprint, top);
+        let chart_height = self.layout.chart_height();
+        if canvas.holds(below - em, below + chart_height + em) {
+            let chart_width = 2.0 * size + self.layout.gap;
+            draw_profile(
+                canvas,
+                (margin, below, chart_width, chart_height),
+                em,
+                self.fingerprint,
+                self.profile,
+                self.exposure,
+            )?;
+        }
+        let right = self.layout.column(2);
+        colour_bar(canvas, right, below, size, em);
+        figures(canvas, right, below + 4.6 * em, size, em, visibility);
+
+        let mut y = below + chart_height + 0.2 * em;
+        for note in &self.notes {
+            y += 1.5 * em;
+            let note = shorten(note, 0.95 * em, Weight::Regular, width - 2.0 * margin);
+            let style = Style::new(0.95 * em, Weight::Regular, Align::Left, DARK.faint);
+            canvas.text(margin, y, style, &note);
+        }
+        Ok(())
+    }
+}
+
+/// How wide the line is on which both values are equal.
+fn contour_width(size: usize) -> f32 {
+    (size as f32 / 180.0).max(1.0)
+}
+
+/// Paints the three panels with their left edges at `columns`, as far as the canvas holds their
+/// rows. `shaded` starts at row `first`.
+fn panels(
+    canvas: &mut Canvas,
+    panel: &Panel,
+    (shaded, first): (&Shaded, usize),
+    columns: [usize; 3],
+    top: usize,
+) {
     let size = panel.size;
     let (encode, diverging) = (EncodeTable::new(), DivergingTable::new());
     let channels = shaded.channels();
     let surround = DARK.panel.map(|byte| srgb_decode(byte) as f32);
-    for row in 0..size {
+    let held = |row: usize| row.saturating_sub(top).min(size);
+    for row in held(canvas.rows().start)..held(canvas.rows().end) {
         for column in 0..size {
-            let index = row * size + column;
+            let index = (row - first) * size + column;
             let cover = panel.cover(column, row);
             let behind = 1.0 - cover as f32;
             let shown = |seen: &[f32]| match cover {
@@ -187,11 +247,11 @@ fn panels(canvas: &mut Canvas, panel: &Panel, shaded: &Shaded, columns: [usize; 
         }
     }
     let offset = (columns[2] as f32, top as f32);
-    let contour: Vec<[(f32, f32); 2]> = contour::ratio_one(shaded, size)
+    let contour: Vec<[(f32, f32); 2]> = contour::ratio_one(shaded, size, first)
         .into_iter()
         .map(|ends| ends.map(|(x, y)| (x + offset.0, y + offset.1)))
         .collect();
-    canvas.strokes(&contour, (size as f32 / 180.0).max(1.0), [24, 24, 28], 1.0);
+    canvas.strokes(&contour, contour_width(size), [24, 24, 28], 1.0);
 }
 
 fn headings(canvas: &mut Canvas, layout: &Layout, fingerprint: &Fingerprint<'_>, top: f32) {
@@ -224,18 +284,18 @@ fn headings(canvas: &mut Canvas, layout: &Layout, fingerprint: &Fingerprint<'_>,
     }
 }
 
-/// Short lines beside the panels at the height of the equator, along which the profile runs.
-fn equator_ticks(canvas: &mut Canvas, layout: &Layout, top: f32) {
-    let y = top + layout.size / 2.0;
+/// Short lines at the panels' edges where the profile begins and ends.
+fn profile_ticks(canvas: &mut Canvas, layout: &Layout, fingerprint: &Fingerprint<'_>, top: f32) {
+    let turn = fingerprint.scene.geometry().turn_angle();
+    let (across, down) = (turn.cos() as f32, -turn.sin() as f32);
+    let half = layout.size / 2.0;
     for index in 0..3 {
-        let (left, length) = (layout.column(index), 0.5 * layout.em);
-        for x in [left, left + layout.size - length] {
-            canvas.stroke(
-                &[(x, y), (x + length, y)],
-                layout.em / 10.0,
-                DARK.faint,
-                1.0,
-            );
+        let (x, y) = (layout.column(index) + half, top + half);
+        for reach in [half, -half] {
+            let at = |reach: f32| (x + reach * across, y + reach * down);
+            let inner = reach - reach.signum() * 0.5 * layout.em;
+            let ends = [at(inner), at(reach)];
+            canvas.stroke(&ends, layout.em / 10.0, DARK.faint, 1.0);
         }
     }
 }

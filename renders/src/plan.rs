@@ -6,6 +6,9 @@ use crate::scene::{VARYING, column};
 use formula::{Expr, Node, Program};
 use std::collections::BTreeSet;
 
+/// How the sentence about the half that is copied begins.
+const MIRRORED: &str = "the lower half is copied from the upper";
+
 /// The decisions for one picture, and the reasons in words.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Plan {
@@ -103,7 +106,18 @@ impl Plan {
         if self.mirror {
             let lights = if several { "lights" } else { "light" };
             self.explain.push(format!(
-                "the lower half is copied from the upper: with eye and {lights} in the horizontal plane they mirror each other"
+                "{MIRRORED}: with eye and {lights} in the horizontal plane they mirror each other"
+            ));
+        }
+    }
+
+    /// Shades both halves, for this reason.
+    pub fn no_mirror(&mut self, why: &str) {
+        if self.mirror {
+            self.mirror = false;
+            self.explain.retain(|line| !line.starts_with(MIRRORED));
+            self.explain.push(format!(
+                "the lower half is shaded too, though it mirrors the upper: {why}"
             ));
         }
     }

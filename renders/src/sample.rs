@@ -409,18 +409,36 @@ impl Panel {
             push(x, ((rho - x) * (rho + x)).sqrt(), (to - from) / whole);
             return;
         }
-        let angle = |x: f64| (x / rho).clamp(-1.0, 1.0).asin();
-        let (start, end) = (angle(from), angle(to));
-        let places: [(f64, f64); EDGE_GRID] = std::array::from_fn(|j| {
-            let t = start + (end - start) * (j as f64 + 0.5) / EDGE_GRID as f64;
-            let (sin, cos) = t.sin_cos();
-            (rho * sin, rho * cos)
-        });
+        let places = even(unit(from, rho), unit(to, rho)).map(|(sin, cos)| (rho * sin, rho * cos));
         let weight: f64 = places.iter().map(|(_, q)| q).sum();
         for (x, q) in places {
             push(x, q, (to - from) / whole * q / weight);
         }
     }
+}
+
+/// Sine and cosine of the angle t of a place x = ρ sin t.
+fn unit(x: f64, rho: f64) -> (f64, f64) {
+    let x = x.clamp(-rho, rho);
+    (x / rho, ((rho - x) * (rho + x)).sqrt() / rho)
+}
+
+/// Sines and cosines in the middles of four equal parts of the angle from `a` to `b`, which is
+/// less than half a turn: each direction between two is halfway.
+fn even(a: (f64, f64), b: (f64, f64)) -> [(f64, f64); EDGE_GRID] {
+    let between = |a: (f64, f64), b: (f64, f64)| {
+        let (x, y) = (a.0 + b.0, a.1 + b.1);
+        let length = (x * x + y * y).sqrt();
+        (x / length, y / length)
+    };
+    let half = between(a, b);
+    let quarters = [between(a, half), between(half, b)];
+    [
+        between(a, quarters[0]),
+        between(quarters[0], half),
+        between(half, quarters[1]),
+        between(quarters[1], b),
+    ]
 }
 
 #[cfg(test)]

@@ -71,6 +71,24 @@ pub(crate) enum Engine {
     Idle,
 }
 
+impl Engine {
+    /// What the graphics processor's own clock says all work so far took it, in milliseconds.
+    pub fn device_ms(&self) -> Option<f64> {
+        match self {
+            Self::Gpu(gpu) => gpu.device_ms(),
+            Self::Cpu(_) | Self::Idle => None,
+        }
+    }
+
+    /// What it is, and the adapter's name.
+    pub fn name(&self) -> (&'static str, Option<String>) {
+        match self {
+            Self::Gpu(gpu) => ("gpu", Some(gpu.adapter.clone())),
+            Self::Cpu(_) | Self::Idle => ("cpu", None),
+        }
+    }
+}
+
 /// Both panels, or some rows of them, from the top.
 ///
 /// Values of several channels stand side by side for each pixel.
@@ -267,7 +285,21 @@ impl Shaded {
         }
     }
 
-    fn append(&mut self, below: &Self) {
+    /// Drops the first so many pixels.
+    pub fn drop_pixels(&mut self, pixels: usize) {
+        let values = pixels * self.channels();
+        for column in [&mut self.right, &mut self.wrong] {
+            column.drain(..values.min(column.len()));
+        }
+        for column in [&mut self.right_seen, &mut self.wrong_seen] {
+            column.drain(..values.min(column.len()));
+        }
+        for column in [&mut self.lit, &mut self.brighter, &mut self.stops] {
+            column.drain(..pixels.min(column.len()));
+        }
+    }
+
+    pub fn append(&mut self, below: &Self) {
         self.right.extend_from_slice(&below.right);
         self.wrong.extend_from_slice(&below.wrong);
         self.right_seen.extend_from_slice(&below.right_seen);

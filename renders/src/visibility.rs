@@ -28,6 +28,18 @@ pub struct Visibility {
     pub changed_8: (f64, f64),
 }
 
+impl Visibility {
+    /// Of a picture of which nothing is known yet.
+    pub(crate) const UNKNOWN: Self = Self {
+        lit_above_one: f64::NAN,
+        disc_above_one: f64::NAN,
+        ratio_at_highlight: f64::NAN,
+        rim_over_highlight: (f64::NAN, f64::NAN),
+        terminator_step: f64::NAN,
+        changed_8: (f64::NAN, f64::NAN),
+    };
+}
+
 pub(crate) fn measure(
     fingerprint: &Fingerprint<'_>,
     cpu: &Cpu,

@@ -1,0 +1,296 @@
+//! Pictures of any size, written row by row as they are drawn: what is held in memory does not
+//! grow with their height.
+
+use crate::canvas::{Canvas, png_header};
+use crate::colour::{DARK, EncodeTable};
+use crate::cpu::Cpu;
+use crate::error::Error;
+use crate::exr;
+use crate::picture::Page;
+use crate::plan::Plan;
+use crate::profile::Profile;
+use crate::shade::{Shaded, shade};
+use crate::visibility::{Tally, Visibility, measure};
+use crate::{Fingerprint, Options, Precision, Report, Shown, engine, job};
+use std::io::Write;
+use std::ops::Range;
+use std::sync::atomic::AtomicBool;
+use std::time::Instant;
+
+/// What is held at once.
+#[derive(Clone, Copy, Debug)]
+struct Held {
+    /// Panels up to this size are shaded whole, so that half of one can be copied where it
+    /// mirrors the other; larger ones strip by strip.
+    whole: u32,
+    /// Pixels of a page, about.
+    strip: usize,
+}
+
+const HELD: Held = Held {
+    whole: 1024,
+    strip: 1 << 21,
+};
+
+/// Draws a fingerprint as a PNG file with all its words, in bounded memory. The same picture as
+/// [`crate::render`], whatever the size; [`Options::compact`] does not count.
+///
+/// # Errors
+/// As [`crate::render`], and [`Error::Write`] where the file cannot be written.
+pub fn write_png(
+    fingerprint: &Fingerprint<'_>,
+    options: &Options,
+    cancel: &AtomicBool,
+    to: &mut dyn Write,
+) -> Result<Report, Error> {
+    write_png_holding(HELD, fingerprint, options, cancel, to)
+}
+
+fn write_png_holding(
+    held: Held,
+    fingerprint: &Fingerprint<'_>,
+    options: &Options,
+    cancel: &AtomicBool,
+    to: &mut dyn Write,
+) -> Result<Report, Error> {
+    let start = Instant::now();
+    let mut plan = Plan::of(fingerprint, options.skip);
+    if options.size > held.whole {
+        plan.no_mirror("the picture is drawn in strips, so that it needs little memory");
+    }
+    let cpu = Cpu::new(fingerprint, &plan, Precision::F64)?;
+    let profile = Profile::of(fingerprint, &cpu);
+    let shown = Shown {
+        exposure: profile.exposure(),
+        raw: false,
+    };
+    let job = job(fingerprint, options, &plan, shown, cancel)?;
+    let engine = engine(fingerprint, options, &plan)?;
+    let page = Page::new(fingerprint, job.panel, &profile, shown.exposure);
+    let size = job.panel.size;
+
+    let mut window = Window::default();
+    if options.size <= held.whole {
+        window.take(shade(&job, &engine)?);
+    }
+    let mut visibility = None;
+    let writer = png_header(to, page.width as u32, page.height as u32);
+    let mut writer = writer.map_err(unwritten)?;
+    let mut file = writer.stream_writer().map_err(unwritten)?;
+    let strip = (held.strip / page.width).max(1);
+    for top in (0..page.height).step_by(strip) {
+        let rows = top..(top + strip).min(page.height);
+        let (shown, needed) = page.panel_rows(&rows);
+        if !shown.is_empty() {
+            window.forget(needed.start, size);
+            while window.end(size) < needed.end {
+                let from = window.end(size);
+                let more = job.shade(&engine, from..needed.end)?;
+                window.take(more);
+            }
+        }
+        // Below the panels stand the figures of all their pixels.
+        if window.end(size) == size && visibility.is_none() {
+            visibility = Some(measure(fingerprint, &cpu, &job.panel, &window.tally));
+        }
+        let mut canvas = Canvas::strip(page.width, page.height, rows, DARK.paper);
+        let known = visibility.as_ref().unwrap_or(&Visibility::UNKNOWN);
+        page.draw(&mut canvas, (&window.shaded, window.first), known)?;
+        file.write_all(canvas.rgb()).map_err(unwritten)?;
+    }
+    file.finish().map_err(unwritten)?;
+    let (backend, adapter) = engine.name();
+    let pixels = u64::from(options.size).pow(2);
+    Ok(Report {
+        backend,
+        adapter,
+        precision: match backend {
+            "gpu" => Precision::F32,
+            _ => options.precision,
+        },
+        pixels_shaded: window.pixels,
+        pixels_skipped: pixels - window.pixels,
+        points: window.points,
+        terms_evaluated: plan.evaluated,
+        terms_skipped: plan.skipped,
+        explain: plan.explain,
+        exposure: shown.exposure,
+        ms: start.elapsed().as_secs_f64() * 1e3,
+        device_ms: engine.device_ms(),
+        visibility: visibility.unwrap_or(Visibility::UNKNOWN),
+    })
+}
+
+/// Writes the linear values of both panels as an OpenEXR file, in bounded memory: the layers
+/// `buggy` and `correct`, 32-bit floats.
+///
+/// # Errors
+/// As [`write_png`].
+pub fn write_exr(
+    fingerprint: &Fingerprint<'_>,
+    options: &Options,
+    cancel: &AtomicBool,
+    to: &mut dyn Write,
+) -> Result<(), Error> {
+    let mut plan = Plan::of(fingerprint, options.skip);
+    plan.no_mirror("the values are written row by row");
+    let shown = Shown {
+        exposure: 1.0,
+        raw: true,
+    };
+    let job = job(fingerprint, options, &plan, shown, cancel)?;
+    let engine = engine(fingerprint, options, &plan)?;
+    let size = job.panel.size;
+    to.write_all(&exr::header(size, job.channels))
+        .map_err(unwritten)?;
+    let strip = (HELD.strip / 8 / size).max(16);
+    for first in (0..size).step_by(strip) {
+        let shaded = job.shade(&engine, first..(first + strip).min(size))?;
+        let rows = exr::rows(size, job.channels, first, &shaded.right, &shaded.wrong);
+        to.write_all(&rows).map_err(unwritten)?;
+    }
+    to.flush().map_err(unwritten)
+}
+
+fn unwritten(error: impl std::fmt::Display) -> Error {
+    Error::Write(error.to_string())
+}
+
+/// The shaded rows that are held, and sums over all that were.
+#[derive(Default)]
+struct Window {
+    shaded: Shaded,
+    /// The panel's row that the first of them is.
+    first: usize,
+    tally: Tally,
+    encode: EncodeTable,
+    pixels: u64,
+    points: u64,
+}
+
+impl Window {
+    /// One past the last row that is held.
+    fn end(&self, size: usize) -> usize {
+        self.first + self.shaded.lit.len() / size
+    }
+
+    /// Adds the rows that come next.
+    fn take(&mut self, more: Shaded) {
+        self.tally.add(&more, &self.encode);
+        self.pixels += more.pixels;
+        self.points += more.points;
+        self.shaded.append(&more);
+    }
+
+    /// Drops the rows before `row`.
+    fn forget(&mut self, row: usize, size: usize) {
+        let dropped: Range<usize> = 0..row.saturating_sub(self.first);
+        self.shaded.drop_pixels(dropped.len() * size);
+        self.first += dropped.len();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Backend, Eye, Light, Scene, raw, render};
+    use std::io::Cursor;
+
+    fn bug(scene: Scene, work: impl FnOnce(&Fingerprint<'_>)) {
+        let library = formula::Library::new();
+        let parse = |text| formula::parse(text).unwrap_or_else(|e| panic!("{e}"));
+        work(&Fingerprint {
+            lesson: "test",
+            id: "strips",
+            title: "In strips".to_owned(),
+            caption: "A caption that is long enough for a second line of text. ".repeat(3),
+            library: &library,
+            right: &parse("d_ggx() * v_ggx() * n_dot_l"),
+            wrong: &parse("d_ggx() * v_ggx() * n_dot_l / (4 * n_dot_l * n_dot_v)"),
+            scene,
+        });
+    }
+
+    fn scenes() -> [Scene; 2] {
+        let coloured = Light {
+            turn_deg: 200.0,
+            colour: [1.0, 0.5, 0.2],
+            ..Light::distant(70.0)
+        };
+        [
+            Scene::new(0.5, 0.9, 60.0),
+            Scene {
+                eye: Eye::Perspective { distance: 3.0 },
+                lights: vec![Light::distant(20.0), coloured],
+                ..Scene::new(0.5, 0.9, 0.0)
+            },
+        ]
+    }
+
+    const OPTIONS: Options = Options {
+        size: 120,
+        backend: Backend::Cpu,
+        precision: Precision::F64,
+        skip: true,
+        compact: false,
+    };
+
+    /// However little is held, the picture and its figures are the same.
+    #[test]
+    fn strips_make_the_whole_picture() {
+        for scene in scenes() {
+            bug(scene, |fingerprint| {
+                let never = AtomicBool::new(false);
+                let whole = render(fingerprint, &OPTIONS, &never).unwrap_or_else(|e| panic!("{e}"));
+                let expected: Vec<&[u8]> = whole.rgba.chunks_exact(4).map(|p| &p[..3]).collect();
+                for held in [
+                    HELD,
+                    Held {
+                        whole: 16,
+                        strip: 1,
+                    },
+                    Held {
+                        whole: 16,
+                        strip: 7000,
+                    },
+                    Held {
+                        whole: 200,
+                        strip: 30_000,
+                    },
+                ] {
+                    let mut file = Vec::new();
+                    let report = write_png_holding(held, fingerprint, &OPTIONS, &never, &mut file)
+                        .unwrap_or_else(|e| panic!("{e}"));
+                    let mut reader = png::Decoder::new(Cursor::new(file))
+                        .read_info()
+                        .expect("a PNG");
+                    let mut bytes = vec![0; reader.output_buffer_size().expect("a size")];
+                    let frame = reader.next_frame(&mut bytes).expect("a whole PNG");
+                    assert_eq!((frame.width, frame.height), (whole.width, whole.height));
+                    let pairs = bytes.chunks_exact(3).zip(&expected);
+                    let differs = pairs.enumerate().find(|(_, (a, b))| a != *b);
+                    let width = whole.width as usize;
+                    let place = differs.map(|(at, pair)| (at % width, at / width, pair));
+                    assert_eq!(place, None, "{held:?}");
+                    let (some, all) = (report.visibility, whole.report.visibility);
+                    assert!((some.lit_above_one - all.lit_above_one).abs() < 1e-9);
+                    assert_eq!(some.changed_8, all.changed_8);
+                    assert_eq!(some.rim_over_highlight, all.rim_over_highlight);
+                }
+            });
+        }
+    }
+
+    #[test]
+    fn the_streamed_exr_is_the_whole_one() {
+        for scene in scenes() {
+            bug(scene, |fingerprint| {
+                let mut file = Vec::new();
+                write_exr(fingerprint, &OPTIONS, &AtomicBool::new(false), &mut file)
+                    .unwrap_or_else(|e| panic!("{e}"));
+                let raw = raw(fingerprint, &OPTIONS).unwrap_or_else(|e| panic!("{e}"));
+                assert!(file == raw.exr());
+            });
+        }
+    }
+}
