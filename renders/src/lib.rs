@@ -52,7 +52,7 @@ pub use map::{MapSpec, Scale, map_png};
 pub use own::{Own, profile_own, render_own};
 pub use profile::{ProfilePoint, point_at, profile};
 pub use scene::{Eye, Light, RADIUS, Scene};
-pub use stream::{write_exr, write_png};
+pub use stream::{write_exr, write_png, write_png16};
 pub use visibility::Visibility;
 
 use crate::canvas::Canvas;
@@ -346,6 +346,23 @@ pub fn raw(fingerprint: &Fingerprint<'_>, options: &Options) -> Result<Raw, Erro
         right: drawn.shaded.right,
         wrong: drawn.shaded.wrong,
     })
+}
+
+/// The figures of a picture, without the picture.
+///
+/// # Errors
+/// As [`render`].
+pub fn visibility(fingerprint: &Fingerprint<'_>, options: &Options) -> Result<Visibility, Error> {
+    let plan = Plan::of(fingerprint, options.skip);
+    let cpu = Cpu::new(fingerprint, &plan, Precision::F64)?;
+    let shown = Shown {
+        exposure: Profile::of(fingerprint, &cpu).exposure(),
+        raw: false,
+    };
+    let drawn = draw_panels(fingerprint, options, &plan, shown, &AtomicBool::new(false))?;
+    let mut tally = Tally::default();
+    tally.add(&drawn.shaded, &EncodeTable::new());
+    Ok(visibility::measure(fingerprint, &cpu, &drawn.panel, &tally))
 }
 
 /// At how many points, over all lights, the formulas are evaluated for a picture.

@@ -2,6 +2,7 @@
 
 use crate::Raw;
 use crate::colour::srgb_encode;
+use std::io::Write;
 
 impl Raw {
     /// The correct panel and, on its right, the buggy one as a PNG file of 16 bits a channel:
@@ -9,32 +10,42 @@ impl Raw {
     /// blue where the lights have colours.
     pub fn png16(&self, exposure: f64) -> Vec<u8> {
         let (size, channels) = (self.size as usize, self.channels as usize);
-        let row = size * channels;
-        let mut bytes = Vec::with_capacity(4 * size * row);
-        let rows = self
-            .right
-            .chunks_exact(row)
-            .zip(self.wrong.chunks_exact(row));
-        for value in rows.flat_map(|(right, wrong)| right.iter().chain(wrong)) {
-            // A NaN becomes 0.
-            let signal = srgb_encode((value * exposure).max(0.0));
-            bytes.extend_from_slice(&((signal * 65535.0 + 0.5) as u16).to_be_bytes());
-        }
+        let bytes = rows(size * channels, &self.right, &self.wrong, exposure);
         let mut file = Vec::new();
-        let mut encoder = png::Encoder::new(&mut file, 2 * self.size, self.size);
-        encoder.set_color(match channels {
-            3 => png::ColorType::Rgb,
-            _ => png::ColorType::Grayscale,
-        });
-        encoder.set_depth(png::BitDepth::Sixteen);
-        encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
         // Writing to memory fails only if the buffer and the header disagree, which they cannot.
-        let written = encoder
-            .write_header()
+        let written = header(&mut file, size, channels)
             .and_then(|mut writer| writer.write_image_data(&bytes));
         debug_assert!(written.is_ok(), "{written:?}");
         file
     }
+}
+
+/// The start of a file with two panels of `size` side by side.
+pub(crate) fn header<W: Write>(
+    to: W,
+    size: usize,
+    channels: usize,
+) -> Result<png::Writer<W>, png::EncodingError> {
+    let mut encoder = png::Encoder::new(to, 2 * size as u32, size as u32);
+    encoder.set_color(match channels {
+        3 => png::ColorType::Rgb,
+        _ => png::ColorType::Grayscale,
+    });
+    encoder.set_depth(png::BitDepth::Sixteen);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    encoder.write_header()
+}
+
+/// As many rows as there are values, `row` in each of both panels.
+pub(crate) fn rows(row: usize, right: &[f64], wrong: &[f64], exposure: f64) -> Vec<u8> {
+    let mut bytes = Vec::with_capacity(4 * right.len());
+    let rows = right.chunks_exact(row).zip(wrong.chunks_exact(row));
+    for value in rows.flat_map(|(right, wrong)| right.iter().chain(wrong)) {
+        // A NaN becomes 0.
+        let signal = srgb_encode((value * exposure).max(0.0));
+        bytes.extend_from_slice(&((signal * 65535.0 + 0.5) as u16).to_be_bytes());
+    }
+    bytes
 }
 
 #[cfg(test)]

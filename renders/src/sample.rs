@@ -203,6 +203,7 @@ impl Samples {
 }
 
 /// What a light reaches in one row of pixels.
+#[derive(Default)]
 struct Row {
     /// The lines within the row on which pixels at an edge are sampled, and what is lit of them.
     lines: [(f64, Stretches); EDGE_GRID],
@@ -278,6 +279,10 @@ impl Panel {
     /// Which pixels of a row the lit lens touches and fills.
     fn row(&self, geometry: &Geometry, row: usize) -> Row {
         let at = |part: f64| self.up(row as f64 + part);
+        if at(1.0) >= 1.0 || at(0.0) <= -1.0 {
+            // Above or below the sphere.
+            return Row::default();
+        }
         // The lower half is walked upwards, so that a pixel and its mirror image sum the same
         // numbers in the same order and agree to the last bit.
         let offset = |i: usize| {
@@ -305,9 +310,16 @@ impl Panel {
             }
             whole
         };
+        let borders = [geometry.lit(at(0.0)), geometry.lit(at(1.0))];
+        if let Some((touched, filled)) = plain(&lines, &borders) {
+            return Row {
+                touched: whole(&touched, true),
+                filled: whole(&filled, false),
+                lines,
+            };
+        }
         let mut touched = Stretches::default();
-        let mut filled =
-            whole(&geometry.lit(at(0.0)), false).and(&whole(&geometry.lit(at(1.0)), false));
+        let mut filled = whole(&borders[0], false).and(&whole(&borders[1], false));
         for (_, line) in &lines {
             touched = touched.or(&whole(line, true));
             filled = filled.and(&whole(line, false));
@@ -415,6 +427,34 @@ impl Panel {
             push(x, q, (to - from) / whole * q / weight);
         }
     }
+}
+
+/// What is touched and what is filled where every line has one stretch and all overlap: nearly
+/// everywhere.
+fn plain(
+    lines: &[(f64, Stretches); EDGE_GRID],
+    borders: &[Stretches; 2],
+) -> Option<(Stretches, Stretches)> {
+    let one = |stretches: &Stretches| match stretches.as_slice() {
+        [only] => Some(*only),
+        _ => None,
+    };
+    let (mut touched, mut filled) = (one(&lines[0].1)?, one(&lines[0].1)?);
+    for (_, line) in &lines[1..] {
+        let (from, to) = one(line)?;
+        touched = (touched.0.min(from), touched.1.max(to));
+        filled = (filled.0.max(from), filled.1.min(to));
+    }
+    for border in borders {
+        let (from, to) = one(border)?;
+        filled = (filled.0.max(from), filled.1.min(to));
+    }
+    let stretch = |stretch| {
+        let mut stretches = Stretches::default();
+        stretches.push(stretch);
+        stretches
+    };
+    (filled.0 < filled.1).then(|| (stretch(touched), stretch(filled)))
 }
 
 /// Sine and cosine of the angle t of a place x = ρ sin t.

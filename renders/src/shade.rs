@@ -15,7 +15,7 @@ const TILE: usize = 1 << 20;
 /// Rows of a panel that are sampled and evaluated together: their samples stay in the cache.
 const BAND: usize = 4;
 /// The same under several lights, each of which reaches fewer pixels of a row.
-const BAND_OF_LIGHTS: usize = 16;
+const BAND_OF_LIGHTS: usize = 32;
 
 /// Values of both formulas at some samples, negative ones and NaN as 0, and their ratio.
 #[derive(Clone, Debug, Default)]
@@ -378,12 +378,11 @@ impl Job<'_> {
                 false => part.add_only(samples, values, first, self),
             }
         };
-        let lights = self.lights.iter().enumerate();
         match engine {
             // A core's cache holds the samples under one light.
             Engine::Cpu(cpu) => {
                 let mut samples = Samples::default();
-                for (light, (geometry, _)) in lights {
+                for (light, (geometry, _)) in self.lights.iter().enumerate() {
                     self.panel
                         .fill(&mut samples, geometry, rows.start, rows.end);
                     add(&mut part, light, &samples, &cpu.evaluate(&samples));
@@ -391,9 +390,10 @@ impl Job<'_> {
             }
             // A graphics processor wants them all at once.
             Engine::Gpu(gpu) => {
-                let samples: Vec<Samples> = lights
-                    .map(|(_, (geometry, _))| self.panel.samples(geometry, rows.start, rows.end))
-                    .collect();
+                let under = |(geometry, _): &(Geometry, [f64; 3])| {
+                    self.panel.samples(geometry, rows.start, rows.end)
+                };
+                let samples: Vec<Samples> = self.lights.iter().map(under).collect();
                 let values = gpu.evaluate(&samples)?;
                 for (light, (samples, values)) in samples.iter().zip(&values).enumerate() {
                     add(&mut part, light, samples, values);

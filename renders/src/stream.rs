@@ -8,8 +8,9 @@ use crate::error::Error;
 use crate::exr;
 use crate::picture::Page;
 use crate::plan::Plan;
+use crate::png16;
 use crate::profile::Profile;
-use crate::shade::{Shaded, shade};
+use crate::shade::{Job, Shaded, shade};
 use crate::visibility::{Tally, Visibility, measure};
 use crate::{Fingerprint, Options, Precision, Report, Shown, engine, job};
 use std::io::Write;
@@ -132,6 +133,52 @@ pub fn write_exr(
     cancel: &AtomicBool,
     to: &mut dyn Write,
 ) -> Result<(), Error> {
+    values(fingerprint, options, cancel, |job, shade| {
+        let (size, channels) = (job.panel.size, job.channels);
+        to.write_all(&exr::header(size, channels))
+            .map_err(unwritten)?;
+        shade(&mut |first, shaded| {
+            let rows = exr::rows(size, channels, first, &shaded.right, &shaded.wrong);
+            to.write_all(&rows).map_err(unwritten)
+        })?;
+        to.flush().map_err(unwritten)
+    })
+}
+
+/// Writes the values of both panels as a PNG file of 16 bits a channel, in bounded memory: see
+/// [`crate::Raw::png16`].
+///
+/// # Errors
+/// As [`write_png`].
+pub fn write_png16(
+    fingerprint: &Fingerprint<'_>,
+    options: &Options,
+    cancel: &AtomicBool,
+    to: &mut dyn Write,
+) -> Result<(), Error> {
+    let exposure = crate::exposure(fingerprint);
+    values(fingerprint, options, cancel, |job, shade| {
+        let (size, channels) = (job.panel.size, job.channels);
+        let mut writer = png16::header(to, size, channels).map_err(unwritten)?;
+        let mut file = writer.stream_writer().map_err(unwritten)?;
+        shade(&mut |_, shaded| {
+            let rows = png16::rows(size * channels, &shaded.right, &shaded.wrong, exposure);
+            file.write_all(&rows).map_err(unwritten)
+        })?;
+        file.finish().map_err(unwritten)
+    })
+}
+
+/// What takes shaded rows, and the panel's row that the first of them is.
+type Take<'a> = dyn FnMut(usize, &Shaded) -> Result<(), Error> + 'a;
+
+/// Has all rows shaded, some at a time, by what `work` calls with what is to take them.
+fn values(
+    fingerprint: &Fingerprint<'_>,
+    options: &Options,
+    cancel: &AtomicBool,
+    work: impl FnOnce(&Job<'_>, &dyn Fn(&mut Take<'_>) -> Result<(), Error>) -> Result<(), Error>,
+) -> Result<(), Error> {
     let mut plan = Plan::of(fingerprint, options.skip);
     plan.no_mirror("the values are written row by row");
     let shown = Shown {
@@ -141,15 +188,13 @@ pub fn write_exr(
     let job = job(fingerprint, options, &plan, shown, cancel)?;
     let engine = engine(fingerprint, options, &plan)?;
     let size = job.panel.size;
-    to.write_all(&exr::header(size, job.channels))
-        .map_err(unwritten)?;
     let strip = (HELD.strip / 8 / size).max(16);
-    for first in (0..size).step_by(strip) {
-        let shaded = job.shade(&engine, first..(first + strip).min(size))?;
-        let rows = exr::rows(size, job.channels, first, &shaded.right, &shaded.wrong);
-        to.write_all(&rows).map_err(unwritten)?;
-    }
-    to.flush().map_err(unwritten)
+    work(&job, &|take: &mut Take<'_>| {
+        (0..size).step_by(strip).try_for_each(|first| {
+            let shaded = job.shade(&engine, first..(first + strip).min(size))?;
+            take(first, &shaded)
+        })
+    })
 }
 
 fn unwritten(error: impl std::fmt::Display) -> Error {
@@ -235,6 +280,15 @@ mod tests {
         compact: false,
     };
 
+    #[track_caller]
+    fn pixels(file: Vec<u8>) -> ((u32, u32), Vec<u8>) {
+        let decoder = png::Decoder::new(Cursor::new(file));
+        let mut reader = decoder.read_info().expect("a PNG");
+        let mut bytes = vec![0; reader.output_buffer_size().expect("a size")];
+        let frame = reader.next_frame(&mut bytes).expect("a whole PNG");
+        ((frame.width, frame.height), bytes)
+    }
+
     /// However little is held, the picture and its figures are the same.
     #[test]
     fn strips_make_the_whole_picture() {
@@ -261,12 +315,8 @@ mod tests {
                     let mut file = Vec::new();
                     let report = write_png_holding(held, fingerprint, &OPTIONS, &never, &mut file)
                         .unwrap_or_else(|e| panic!("{e}"));
-                    let mut reader = png::Decoder::new(Cursor::new(file))
-                        .read_info()
-                        .expect("a PNG");
-                    let mut bytes = vec![0; reader.output_buffer_size().expect("a size")];
-                    let frame = reader.next_frame(&mut bytes).expect("a whole PNG");
-                    assert_eq!((frame.width, frame.height), (whole.width, whole.height));
+                    let (size, bytes) = pixels(file);
+                    assert_eq!(size, (whole.width, whole.height));
                     let pairs = bytes.chunks_exact(3).zip(&expected);
                     let differs = pairs.enumerate().find(|(_, (a, b))| a != *b);
                     let width = whole.width as usize;
@@ -282,7 +332,7 @@ mod tests {
     }
 
     #[test]
-    fn the_streamed_exr_is_the_whole_one() {
+    fn streamed_values_are_the_whole_ones() {
         for scene in scenes() {
             bug(scene, |fingerprint| {
                 let mut file = Vec::new();
@@ -290,6 +340,11 @@ mod tests {
                     .unwrap_or_else(|e| panic!("{e}"));
                 let raw = raw(fingerprint, &OPTIONS).unwrap_or_else(|e| panic!("{e}"));
                 assert!(file == raw.exr());
+                let mut file = Vec::new();
+                write_png16(fingerprint, &OPTIONS, &AtomicBool::new(false), &mut file)
+                    .unwrap_or_else(|e| panic!("{e}"));
+                let whole = raw.png16(crate::exposure(fingerprint));
+                assert!(pixels(file) == pixels(whole));
             });
         }
     }

@@ -10,6 +10,7 @@ use tutor::{Finding, Severity};
 
 use crate::cli::{Check, Folders, Format};
 use crate::exit::{Done, Failure};
+use crate::fingerprints::check_seen;
 use crate::lessons::{File, Shelf};
 use crate::output;
 
@@ -61,6 +62,7 @@ fn report(shelf: &Shelf, whole: bool) -> Report {
     for run in shelf.lessons().flat_map(|lesson| shaders::runs(lesson)) {
         findings.extend(run.finding(&crate::shaders::run(run.job.clone())));
     }
+    findings.extend(shelf.lessons().flat_map(|lesson| check_seen(lesson)));
     let place = |finding: &Finding| {
         shelf
             .files

@@ -1,6 +1,7 @@
 //! `lobe render`: fingerprints and maps as PNG, plots as SVG and PNG.
 
 use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -18,6 +19,8 @@ use crate::fingerprints::{figure, fingerprint};
 use crate::output;
 use crate::picture_cache::Entry;
 
+/// Panels up to this size are kept, to be drawn but once; in pixels.
+const KEPT: u32 = 2048;
 /// Width and height of a plot's file, and of a map's.
 const PLOT: (u32, u32) = (960, 600);
 const MAP: (u32, u32) = (800, 600);
@@ -204,12 +207,10 @@ fn draw(fingerprint: &Fingerprint, args: &Render, out: &Path) -> Result<Report, 
     let path = out.join(format!("{}.png", stem(lesson, id)));
     let options = options(args);
     let description = format!("{lesson}\n{id}\n{}", fingerprint.key(&options));
-    cached(&description, &path, args, || {
-        let picture = renders::render(fingerprint, &options, &AtomicBool::new(false))
+    made(&description, &path, args, |to| {
+        let made = renders::write_png(fingerprint, &options, &AtomicBool::new(false), to)
             .map_err(|error| failed(lesson, id, &error))?;
-        let png = picture.png();
-        let made = picture.report;
-        let report = Report {
+        Ok(Report {
             adapter: made.adapter,
             precision: Some(made.precision.name().to_owned()),
             pixels_shaded: made.pixels_shaded,
@@ -221,8 +222,7 @@ fn draw(fingerprint: &Fingerprint, args: &Render, out: &Path) -> Result<Report, 
             device_ms: made.device_ms,
             visibility: Some(Visibility::of(&made.visibility)),
             ..Report::of(lesson, id, made.backend)
-        };
-        Ok((report, png))
+        })
     })
 }
 
@@ -241,15 +241,57 @@ fn write_values(
     };
     let path = out.join(format!("{}-values.{ending}", stem(lesson, id)));
     let description = format!("values {format:?}\n{}", fingerprint.key(&options));
-    cached(&description, &path, args, || {
-        let raw = renders::raw(fingerprint, &options);
-        let raw = raw.map_err(|error| failed(lesson, id, &error))?;
-        let bytes = match format {
-            Values::Exr => raw.exr(),
-            Values::Png16 => raw.png16(renders::exposure(fingerprint)),
+    made(&description, &path, args, |to| {
+        let never = AtomicBool::new(false);
+        let written = match format {
+            Values::Exr => renders::write_exr(fingerprint, &options, &never, to),
+            Values::Png16 => renders::write_png16(fingerprint, &options, &never, to),
         };
-        Ok((Report::of(lesson, id, "values"), bytes))
+        written.map_err(|error| failed(lesson, id, &error))?;
+        Ok(Report::of(lesson, id, "values"))
     })
+}
+
+/// A file of pixels from the cache, or from `make`. A large one is written as it comes, and not
+/// kept besides.
+fn made(
+    description: &str,
+    path: &Path,
+    args: &Render,
+    make: impl FnOnce(&mut dyn io::Write) -> Result<Report, Failure>,
+) -> Result<Report, Failure> {
+    if args.size <= KEPT {
+        return cached(description, path, args, || {
+            let mut bytes = Vec::new();
+            let report = make(&mut bytes)?;
+            Ok((report, bytes))
+        });
+    }
+    let start = Instant::now();
+    let mut report = whole(path, make)?;
+    report.file = path.display().to_string();
+    report.ms = milliseconds(start);
+    Ok(report)
+}
+
+/// Writes a file as it comes. Until it is whole it has another name.
+fn whole<T>(
+    path: &Path,
+    work: impl FnOnce(&mut dyn io::Write) -> Result<T, Failure>,
+) -> Result<T, Failure> {
+    let unwritable = |error: io::Error| Failure::unwritable(path, &error);
+    let part = path.with_extension("part");
+    let mut file = io::BufWriter::new(fs::File::create(&part).map_err(unwritable)?);
+    let done = work(&mut file).and_then(|done| {
+        io::Write::flush(&mut file).map_err(unwritable)?;
+        fs::rename(&part, path).map_err(unwritable)?;
+        Ok(done)
+    });
+    if done.is_err() {
+        // Of no use to anybody; where it cannot be removed the error said enough.
+        let _ = fs::remove_file(&part);
+    }
+    done
 }
 
 impl Report {
