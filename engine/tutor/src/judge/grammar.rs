@@ -6,78 +6,7 @@ use std::sync::OnceLock;
 use super::text::Token;
 
 /// Words that state nothing by themselves and that no typo is read into.
-const GLUE: &str = "a an the this that these those it its he she they we you i me my his her their our your one ones some any no not nor
-is are was were be been being am do does did done doing has have had having will would can could may might must shall should
-and or but if then else so as than because since while whereas although though however therefore thus hence which who whom whose what when where why how
-of in on at to from by with without into onto over under near around along toward towards for about through between among across against within per via up down out off away back
-there here just only very too quite rather really also even still yet already again always never ever often much many more most less least few little lot lots
-get gets got getting give gives given giving go goes going went come comes coming came make makes made making take takes taken taking see sees seen seeing look looks looking
-become becomes becoming became seem seems appear appears appearing show shows shown showing say says said saying think thinks thought believe guess suppose expect expects expected know knows mean means meaning
-would like way ways thing things stuff kind sort bit well ok okay yes basically actually honestly probably maybe perhaps simply pretty
-first second third other another both each every all same such own new old good bad different true real
-now later before after once twice until during
-let us put puts use uses used using find finds found call called tell tells told want wants need needs try tries
-i'm dont im ive id ill youd youre were hes shes theyre whats
-physical physically everything anything nothing something someone nobody none neither either
-value number numbers result answer question term terms point points part parts case cases example
-left right top bottom side time times place places world life heart
-whole half full high low long short big small large great
-stay stays stayed remain remains keep keeps kept hold holds
-therefore moreover furthermore besides instead indeed certainly clearly obviously exactly nearly almost roughly approximately
-have having because course fact sense idea reason
-their there these where which while whole white wrong write written writes
-thing think thank third those three throw thrown
-minor manor sport sports spate spite state states stake smell spell shell steal stall still skill tickle trick stick sticks
-shade shades shading shader shaders shape shared share sharing
-light lights lighting lit sight night might tight right fight
-water matter later latter letter better bitter butter
-price prize prime print point paint plant plane plate place plays
-wander wonder wider wilder winder window
-range change chance charge large larger
-frame fraction function form formula forms
-learn learned lesson lessons teacher please mark complete marked verdict pass passes passed correct grade score
-model models world word words work works worked working book books class
-color colour colors colours image images screen program code file line lines variable
-friend people person human machine computer student
-start starts started end ends ended begin begins stop stops
-move moves moved turn turns turned run runs running
-plus minus equal equals times divide
-early earth error errors even event
-power powers energy force physics math maths mathematics
-camera eye eyes viewer view views viewing angle angles vector vectors normal normals direction directions
-shader unreal blender unity engine texture textures material materials
-could would should shouldn couldn wouldn
-really ready read reads reading reader
-ball balls sphere spheres bulb bulbs lamp lamps
-paper pepper proper properly prefer
-quick quiet quite quit
-small smell smart
-clean clear close cloud
-trail train trial
-steal steel steep steer stem step
-moon noon soon mood moody
-grain grains green great greet
-inner under upper outer other pitch pitched match batch catch
-files string block contributors build crates contract parameter pointer simple published lesser incidental connection
-allow arguments property multiple clone contributor slice stack bench party master currently grant overlay
-whatsoever known remote march wrapper apple colon martin detection older chars exclusive token sizes
-quote flush union abort constructor tainted counter starting driver alone produce newer portability fails
-leading matcher excluding blank underline logger walter timer units modes blake linked slices constraint
-easing electronic timers produces writer exclusion ports distributors pipes converted binding failing converters drive
-packet attention blame factory layer guest theme emulation sleep delay basect
-different written answer answers simple simpler simplest easy easier hard harder brighten allow allows allowed along follow follows followed
-mention mentioned minute minutes moment person version verse inverse universe adverse diverse notice notices noticed matches catch caught
-touch store scope extension possibly collection indicates terminate marker positional whenever connected prints printing
-displayed selection tasks task printer stage stages streams storing expensive functional respective containers termination
-constructing consists consisting caches splitting alive greek optimal brown bring brings worst stating relational
-slots picked forth stale death slight trans inefficient untie blink tuning chose broke decisions
-decision courts court wishes casts integrity themes socks binds cheat complexes piped speak picks
-pick risks finished thorough definitive tuned games game seeds explore wakes titled recreated assent
-commute probable intensive stock corruption formulation induce drives grown coats spoke heard steam lever
-plaint stain shake gravel waver batter mutter foster smite gross shave shirt sheep sweep
-sweet swear bread inlined derivation equivalence converting inherited inserted excepted situation situations raising explains
-interfaces indication exclusive exclusively presented correlation proposition promotion contracts warned hires looping loops display
-dumped naked";
+const GLUE: &str = include_str!("known.txt");
 
 /// Whether a word is part of the language's machinery, or so common that no typo means it.
 pub fn is_known(word: &str) -> bool {
