@@ -1,7 +1,9 @@
 //! Many evaluations at once: structure of arrays in, slices out.
 //!
 //! Every loop is written once and compiled for the baseline, for AVX2 with FMA and for
-//! AVX-512; [`Isa::best`] is what this machine can run. What is the same for all evaluations
+//! AVX-512; [`Isa::best`] is what this machine can run. Nothing is left to the compiler's luck:
+//! the registers are named, and square roots and quotients of the next numbers are under way
+//! while those of the last are waited for. What is the same for all evaluations
 //! is given as [`Input::All`] and leaves the loop: the variants are chosen once, outside.
 //!
 //! The formulas are the stable ones of the terms without their care for denormal numbers:
@@ -10,14 +12,12 @@
 //!
 //! Blocks of a few thousand elements stay in the cache; beyond it, memory is the limit.
 
-// Loops over an index of slices of the same length are what the compiler vectorises best.
-#![allow(clippy::needless_range_loop)]
-
 mod conductor;
 mod functions;
 mod lanes;
 mod sample;
 mod specular;
+mod units;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
@@ -25,8 +25,8 @@ pub use conductor::{Conductor, conductor_rgb};
 pub(crate) use functions::{ln_unit, sin_cos_turn};
 pub use sample::{Samples, sample};
 pub use specular::{Cosines, Vectors, specular, specular_vec3, specular_vectors};
+pub use units::{PRODUCTS, divide, multiply, square_root};
 
-use crate::real::{Fused, Single, lit};
 use lanes::{At, Column, Lanes};
 
 /// A set of instructions that this machine has.
@@ -207,55 +207,3 @@ macro_rules! dispatch_lanes {
 
 pub(crate) use dispatch;
 use {dispatch_lanes, for_kinds};
-
-/// Quotients, to measure how fast the machine divides.
-pub fn divide(isa: Isa, a: &[f32], b: &[f32], out: &mut [f32]) {
-    dispatch!(isa, divide_body(a: &[f32], b: &[f32], out: &mut [f32]))
-}
-
-#[inline(always)]
-fn divide_body<S: Single>(a: &[f32], b: &[f32], out: &mut [f32]) {
-    let n = a.len().min(b.len()).min(out.len());
-    let (a, b, out) = (&a[..n], &b[..n], &mut out[..n]);
-    for i in 0..n {
-        out[i] = (S::load(a[i]) / S::load(b[i])).store();
-    }
-}
-
-/// Square roots, to measure how fast the machine takes them.
-pub fn square_root(isa: Isa, a: &[f32], out: &mut [f32]) {
-    dispatch!(isa, square_root_body(a: &[f32], out: &mut [f32]))
-}
-
-#[inline(always)]
-fn square_root_body<S: Single>(a: &[f32], out: &mut [f32]) {
-    let n = a.len().min(out.len());
-    let (a, out) = (&a[..n], &mut out[..n]);
-    for i in 0..n {
-        out[i] = S::load(a[i]).sqrt().store();
-    }
-}
-
-/// How many products [`multiply`] makes of each number.
-pub const PRODUCTS: usize = 32;
-
-/// Products with sums, fused where the machine can: [`PRODUCTS`] of each number, in eight chains,
-/// to measure how fast it multiplies.
-pub fn multiply(isa: Isa, a: &[f32], out: &mut [f32]) {
-    dispatch!(isa, multiply_body(a: &[f32], out: &mut [f32]))
-}
-
-#[inline(always)]
-fn multiply_body<S: Single>(a: &[f32], out: &mut [f32]) {
-    let n = a.len().min(out.len());
-    let (a, out) = (&a[..n], &mut out[..n]);
-    for i in 0..n {
-        let x = S::load(a[i]);
-        let mut chains = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8].map(lit::<S>);
-        for _ in 0..PRODUCTS / 8 {
-            chains = chains.map(|sum| sum.mul_add(x, x));
-        }
-        let [a, b, c, d, e, f, g, h] = chains;
-        out[i] = (((a + b) + (c + d)) + ((e + f) + (g + h))).store();
-    }
-}

@@ -98,7 +98,7 @@ impl Units {
 pub(super) fn limits(effort: Effort) -> Vec<Limit> {
     let measure = |isa: Isa| {
         let mut units = Units::new(isa);
-        units.round(effort.time, 5);
+        units.round(3 * effort.time, 5);
         units.limit()
     };
     Isa::available().into_iter().map(measure).collect()
