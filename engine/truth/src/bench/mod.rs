@@ -1,10 +1,10 @@
 //! Run time against error, for every term and every way to compute it.
 //!
-//! Times are of one thread on data in the nearest caches, where a row does not say otherwise: the
-//! best of many short runs, since everything that disturbs a run makes it longer. The runs of the
-//! batches are spread over the whole time of measuring: a neighbour on the other thread of the
-//! same core, which nobody inside a virtual machine can see, takes a third of the speed away
-//! for seconds at a time. Errors are in units of the last place
+//! Times are of one thread on data in the nearest caches, where a row does not say otherwise:
+//! the best of many short runs, since everything that disturbs a run makes it longer. The runs of
+//! the batches are spread over the whole time of measuring: on a shared machine, what is not
+//! limited by the division unit alone loses a third of its speed for seconds at a time, as it
+//! would beside a neighbour on the core's other thread. Errors are in units of the last place
 //! against the textbook forms in high precision, at random points of the sensible ranges; the
 //! search for the worst points is [`crate::stress`].
 
