@@ -76,7 +76,10 @@ pub(super) fn hear(
         readings.push(Reading::new(&explain.judge, &before, &sentence, false));
     }
     let told = told(rubric, tried);
-    let heard = combine(rubric, tried.heard(), &told, &readings);
+    let heard = match evades(text) {
+        true => tried.heard().clone(),
+        false => combine(rubric, tried.heard(), &told, &readings),
+    };
     let decided = |id: &String| {
         let before = tried.heard();
         heard.met.contains(id) != before.met.contains(id)
@@ -96,6 +99,23 @@ pub(super) fn hear(
         why,
         heard,
     }
+}
+
+/// Whether a reply is made of words that commit to nothing, "well, it depends": in the context of
+/// what was said before they could be heard as more than they are.
+fn evades(text: &str) -> bool {
+    const EMPTY: [&str; 48] = [
+        "a", "am", "an", "answer", "can", "cannot", "cant", "clue", "could", "depends", "do",
+        "does", "dont", "either", "er", "guess", "help", "hint", "hm", "hmm", "how", "i", "idea",
+        "im", "is", "it", "know", "maybe", "me", "mean", "no", "not", "of", "ok", "perhaps",
+        "please", "really", "say", "sorry", "sure", "that", "the", "think", "uh", "um", "well",
+        "yes", "you",
+    ];
+    let words = text.split(|c: char| c.is_whitespace() || ",.;:!?-".contains(c));
+    let mut words = words
+        .map(|word| word.replace(['\'', '’'], "").to_lowercase())
+        .filter(|word| !word.is_empty());
+    words.all(|word| word == "what" || EMPTY.contains(&word.as_str()))
 }
 
 fn combine(rubric: &Rubric, before: &Heard, told: &[String], readings: &[Reading]) -> Heard {
@@ -193,4 +213,29 @@ fn quote(readings: &[Reading], id: &str, text: &str) -> Option<Quote> {
         start,
         end,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::evades;
+
+    #[track_caller]
+    fn check(text: &str, expected: bool) {
+        assert_eq!(evades(text), expected, "{text}");
+    }
+
+    #[test]
+    fn words_that_commit_to_nothing() {
+        check("well, it depends", true);
+        check("Hm ... I don’t know.", true);
+        check("no", true);
+        check("what do you mean?", true);
+        check("?", true);
+        check("it depends on the roughness", false);
+        check("no, the rim is brighter", false);
+        check("1/π", false);
+        check("0", false);
+        check("H", false);
+        check("up", false);
+    }
 }
