@@ -383,6 +383,9 @@ fn a_shader_is_mended_on_the_screen_and_found_again_after_a_power_cut() {
         learner.attempts(),
         [("mistake".to_owned(), Some("square-forgotten".to_owned()))]
     );
+    // The ball has the room now; the field is one Tab away.
+    terminal.wait_for("Tab to the field");
+    terminal.send("\t");
     // In place: down to line 2, to its end, one letter away: the name is another one.
     terminal.send("\x1b[B\x1b[F\x7f\x7f;\x13");
     terminal.wait_for("roughnes is not defined here. Did you mean");

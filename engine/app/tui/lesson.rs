@@ -2,6 +2,7 @@
 
 use std::time::{Duration, Instant};
 
+use tutor::prose::Block;
 use tutor::session::Msg;
 use tutor::view::{Input, View};
 
@@ -16,6 +17,9 @@ const DRAFT_AFTER: Duration = Duration::from_millis(1500);
 
 /// How fast the sign turns while something is waited for.
 const SPINNING: Duration = Duration::from_millis(120);
+
+/// Rows of a page that are too few for a picture and a text below it.
+const LOW: usize = 20;
 
 /// What the loop does next.
 #[must_use]
@@ -374,11 +378,21 @@ impl LessonScreen {
         }
         if other_screen || view.blocks != before.blocks {
             self.page = Page::new(&view.blocks, self.laid_out_for, self.palette);
+            // A ball that came new is to be looked at, and a low window has room for one of both.
+            let new = view.blocks.iter().skip(before.blocks.len());
+            if !other_screen && self.window < LOW && new.into_iter().any(is_own_ball) {
+                self.focus = Focus::Page;
+            }
             // What is new is in view; what was read may scroll away.
             self.follow = (!other_screen).then(|| self.page.start_of(before.blocks.len()));
             self.scroll = self.follow.unwrap_or(0).min(self.last_scroll());
         }
     }
+}
+
+/// The ball of a learner's shader.
+fn is_own_ball(block: &Block) -> bool {
+    matches!(block, Block::Picture { own: Some(_), .. })
 }
 
 /// Whether a field made for one serves for the other, text and all.

@@ -29,7 +29,12 @@ pub fn height(screen: &LessonScreen, width: u16, room: u16) -> u16 {
             let lines = field
                 .text()
                 .map_or(1, |text| text.split('\n').count() as u16);
-            lines.clamp(4, (room * 2 / 3).max(4))
+            // Who has left the field of a low window wants to read.
+            let most = match screen.focus {
+                Focus::Page if room < 40 => 3,
+                _ => (room * 2 / 3).max(4),
+            };
+            lines.clamp(3, most)
         }
         (Input::Choice { options }, _) => wrapped_rows(options.iter().map(String::as_str), inner),
         (Input::Order { items }, _) => wrapped_rows(items.iter().map(String::as_str), inner),
