@@ -12,7 +12,7 @@ use crate::png16;
 use crate::profile::Profile;
 use crate::shade::{Job, Shaded, shade};
 use crate::visibility::{Tally, Visibility, measure};
-use crate::{Fingerprint, Options, Precision, Report, Shown, engine, job};
+use crate::{Fingerprint, LEAST_WITH_TEXT, Options, Precision, Report, Shown, engine, job, render};
 use std::io::Write;
 use std::ops::Range;
 use std::sync::atomic::AtomicBool;
@@ -33,8 +33,9 @@ const HELD: Held = Held {
     strip: 1 << 21,
 };
 
-/// Draws a fingerprint as a PNG file with all its words, in bounded memory. The same picture as
-/// [`crate::render`], whatever the size; [`Options::compact`] does not count.
+/// Draws a fingerprint as a PNG file in bounded memory, with all its words where they can be
+/// read. The same picture as [`crate::render`], whatever the size; [`Options::compact`] does not
+/// count.
 ///
 /// # Errors
 /// As [`crate::render`], and [`Error::Write`] where the file cannot be written.
@@ -44,6 +45,12 @@ pub fn write_png(
     cancel: &AtomicBool,
     to: &mut dyn Write,
 ) -> Result<Report, Error> {
+    if options.size < LEAST_WITH_TEXT {
+        // The words have no room, and all of it little memory.
+        let picture = render(fingerprint, options, cancel)?;
+        to.write_all(&picture.png()).map_err(unwritten)?;
+        return Ok(picture.report);
+    }
     write_png_holding(HELD, fingerprint, options, cancel, to)
 }
 
