@@ -32,6 +32,8 @@ enum Deed {
     Sort(Vec<usize>),
     /// Writes a shader in an editor, and runs it.
     Mend(String),
+    /// Points at a place at this height of the ball's centre, so far to the right.
+    Point(f64),
     /// Marks every point as said.
     TickAll(usize),
 }
@@ -107,6 +109,11 @@ impl Learner {
             Input::Reply { .. } => Deed::Line(self.reply(session)),
             Input::Text { .. } => Deed::Explain(self.explanation(session)),
             Input::Code { .. } => Deed::Mend(self.solution(session)),
+            // The highlight, and the rim.
+            Input::Place { picture, .. } => Deed::Point(match picture.as_str() {
+                "double-division" => 0.5,
+                _ => 0.98,
+            }),
             Input::Choice { options } => {
                 let right = (0..options.len()).find(|at| {
                     attempt(session, &(at + 1).to_string())
@@ -221,6 +228,7 @@ impl Learner {
             // Pasted, as line breaks are text there.
             Deed::Explain(text) => terminal.send(&format!("\x1b[200~{text}\x1b[201~\x13")),
             Deed::Mend(_) => terminal.send("\x13"),
+            Deed::Point(x) => terminal.send(&pointing(*x)),
             Deed::Choose(at) => terminal.send(&format!("{}\r", at + 1)),
             Deed::Sort(places) => terminal.send(&sorting(places)),
             Deed::TickAll(count) => terminal.send(&format!("{}\r", "y".repeat(*count))),
@@ -232,7 +240,9 @@ impl Learner {
                     Deed::Line(text) | Deed::Explain(text) | Deed::Mend(text) => {
                         answers(record).iter().any(|it| it.trim() == text.trim())
                     }
-                    Deed::Choose(_) | Deed::Sort(_) => answers(record).len() > answered_before,
+                    Deed::Choose(_) | Deed::Sort(_) | Deed::Point(_) => {
+                        answers(record).len() > answered_before
+                    }
                     Deed::TickAll(_) => {
                         matches!(
                             record.entries.last().map(|it| &it.event),
@@ -330,6 +340,14 @@ fn answers(record: &Record) -> Vec<String> {
         .iter()
         .filter_map(|entry| answer(&entry.event))
         .collect()
+}
+
+/// Keys that move the cursor from wherever it is, and look: on a screen of 40 rows the ball has 20,
+/// 40 columns, and a radius of 0.94 of half of that.
+fn pointing(x: f64) -> String {
+    let column = (x * 0.94 + 1.0) / 2.0 * 40.0;
+    let (left, right) = ("\x1b[1;2D".repeat(12), "l".repeat(column as usize));
+    format!("{left}{right}\r")
 }
 
 /// What an answer would be here: item, step, seed and result.

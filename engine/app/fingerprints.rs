@@ -1,6 +1,7 @@
 //! A lesson's fingerprint as `renders` wants it, and its profile in numbers.
 
 use renders::{Backend, Eye, Fingerprint, Light, Options, RADIUS, Scene, Visibility};
+use tutor::exercise::look::{Sight, Spot};
 use tutor::lesson::{Given, SceneLight};
 use tutor::prose::{Block, Inline, TableView, plain};
 use tutor::{Finding, Lesson, Place};
@@ -38,6 +39,25 @@ pub fn fingerprint<'a>(lesson: &'a Lesson, id: &'a str) -> Option<Fingerprint<'a
         wrong: &entry.wrong.expr,
         scene: scene(&entry.scene, &entry.lights),
     })
+}
+
+/// What is seen at a place of a picture, in radii from the ball's centre, and at the best
+/// places; nothing anywhere, where the picture cannot be computed.
+pub fn sight(lesson: &Lesson, id: &str, x: f64, y: f64) -> Sight {
+    let spot = |it: renders::Spot| Spot {
+        x: it.x,
+        y: it.y,
+        n_dot_l: it.n_dot_l,
+        n_dot_v: it.n_dot_v,
+        ratio: it.ratio,
+        stops: it.stops(),
+    };
+    let seen = fingerprint(lesson, id).and_then(|print| renders::look(&print, x, y));
+    Sight {
+        here: seen.and_then(|it| it.here).map(spot),
+        brightest: seen.and_then(|it| it.brightest).map(spot),
+        darkest: seen.and_then(|it| it.darkest).map(spot),
+    }
 }
 
 /// A figure of a picture by the name that lessons and `lobe render --json` call it.
@@ -180,6 +200,15 @@ pub fn own_fingerprint<'a>(lesson: &'a Lesson, id: &'a str) -> Option<Fingerprin
         wrong: &task.is.expr,
         scene: scene(&task.scene, &[]),
     })
+}
+
+/// The cosines along the equator of the sphere, for those who are to find a place on it without
+/// seeing it.
+pub fn places_table(lesson: &Lesson, id: &str) -> Option<TableView> {
+    let mut table = profile_table(lesson, id)?;
+    table.header.truncate(3);
+    table.rows.iter_mut().for_each(|row| row.truncate(3));
+    Some(table)
 }
 
 /// What the picture shows along the equator of the sphere, for those who do not see it.

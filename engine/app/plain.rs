@@ -9,12 +9,12 @@ use std::sync::mpsc::{self, Receiver};
 use std::thread;
 
 use tutor::Lesson;
-use tutor::prose::TableView;
+use tutor::prose::{Block, TableView};
 use tutor::session::Msg;
 use tutor::view::{Input, Saving, Stage, View};
 
 use crate::exit::{Done, Failure};
-use crate::fingerprints::profile_table;
+use crate::fingerprints::{places_table, profile_table};
 use crate::output;
 use crate::shaders;
 use crate::sitting::{Request, Sitting};
@@ -356,6 +356,19 @@ impl Plain {
                     lines.extend(draft.lines().map(|line| format!("| {line}")));
                     self.editor = Some(draft.split('\n').map(str::to_owned).collect());
                 }
+            }
+            Input::Place { picture, .. } => {
+                let lesson = self.sitting.lesson();
+                let table = places_table(lesson, picture).filter(|_| !same_screen);
+                if let Some(table) = table {
+                    let block = Block::Table(table);
+                    lines.extend(text::plain(&block, WIDTH, &Profiles { lesson }));
+                }
+                lines.push("Where on the ball would you look?".into());
+                lines.push(
+                    "[Type how far to the right and how far up, such as 0.8 -0.2; the".into(),
+                );
+                lines.push(" radius is 1. Or: centre, left, right, top, bottom]".into());
             }
             Input::Code { label, note, text } => {
                 lines.extend(text::wrap_plain(

@@ -13,6 +13,7 @@ use tutor::view::View;
 
 use crate::config::SecondJudge;
 use crate::exit::Failure;
+use crate::fingerprints;
 use crate::second::{Asking, Said};
 use crate::store::{Log, Logs, Store, Writer};
 
@@ -290,6 +291,12 @@ impl Sitting {
                 let (send, ran) = mpsc::channel();
                 thread::spawn(move || send.send(crate::shaders::run(*job)));
                 self.running = Some(ran);
+                None
+            }
+            Effect::Look { picture, x, y } => {
+                let sight = fingerprints::sight(self.session.lesson(), &picture, x, y);
+                // What is seen asks for nothing but to be saved.
+                let _ = self.tell(Msg::Looked(sight));
                 None
             }
             Effect::Quit => Some(Request::Leave),

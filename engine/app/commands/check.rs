@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use std::io::{self, IsTerminal as _};
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
-use tutor::check::{DrawCount, Report, shaders};
+use tutor::check::{DrawCount, Report, looks, shaders};
 use tutor::{Finding, Severity};
 
 use crate::cli::{Check, Folders, Format};
@@ -63,6 +63,11 @@ fn report(shelf: &Shelf, whole: bool) -> Report {
         findings.extend(run.finding(&crate::shaders::run(run.job.clone())));
     }
     findings.extend(shelf.lessons().flat_map(|lesson| check_seen(lesson)));
+    // Where a bug shows is known when its picture was looked at.
+    for lesson in shelf.lessons() {
+        let sight = |picture: &str| crate::fingerprints::sight(lesson, picture, 0.0, 0.0);
+        findings.extend(looks::findings(lesson, sight));
+    }
     let place = |finding: &Finding| {
         shelf
             .files

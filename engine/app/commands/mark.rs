@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 
 use tutor::Lesson;
+use tutor::exercise::look;
 use tutor::exercise::report::MarkReport;
 use tutor::exercise::shader::{self, Ran};
 use tutor::exercise::{Marking, mark};
@@ -19,6 +20,16 @@ pub fn run(folders: &Folders, args: &Mark) -> Result<Done, Failure> {
     let (lesson, exercise) = super::find_exercise(&shelf, &args.id)?;
     if shader::task(exercise).is_some() {
         let marking = mark_shader(lesson, exercise, args)?;
+        return print(args, &marking);
+    }
+    if let Some(task) = look::task(exercise) {
+        let marking = match look::place(&args.answer) {
+            Ok((x, y)) => {
+                let sight = crate::fingerprints::sight(lesson, &task.picture, x, y);
+                look::mark(task, &sight)
+            }
+            Err(says) => Marking::Invalid { says },
+        };
         return print(args, &marking);
     }
     let drawn = super::exercise::numbers(lesson, exercise, args.seed)?;

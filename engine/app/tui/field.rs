@@ -3,6 +3,7 @@
 use ratatui_textarea::{CursorMove, Input as Edit, Key, TextArea, WrapMode};
 use tutor::view::Input;
 
+use super::ball::Ball;
 use super::keys::Focus;
 
 /// The field of a screen, with what stands in it.
@@ -12,6 +13,8 @@ pub enum Field {
     Editor(Box<TextArea<'static>>),
     /// The text of a shader.
     Code(Box<TextArea<'static>>),
+    /// A place on a ball.
+    Place(Box<Ball>),
     Choice {
         at: usize,
     },
@@ -38,6 +41,7 @@ impl Field {
             Input::Reply { draft, .. } => Self::Line(Box::new(reply(draft))),
             Input::Text { draft, .. } => Self::Editor(Box::new(editor(draft))),
             Input::Code { text, .. } => Self::Code(Box::new(code(text))),
+            Input::Place { picture, at } => Self::Place(Box::new(Ball::new(picture, *at))),
             Input::Choice { .. } => Self::Choice { at: 0 },
             Input::Order { items } => Self::Order(Order {
                 places: (0..items.len()).collect(),
@@ -61,6 +65,7 @@ impl Field {
             Self::None => Focus::Page,
             Self::Line(_) => Focus::Line,
             Self::Editor(_) | Self::Code(_) => Focus::Editor,
+            Self::Place(_) => Focus::Place,
             Self::Choice { .. } | Self::Order(_) | Self::Checklist { .. } => Focus::Options,
         }
     }

@@ -1,6 +1,8 @@
 //! The one place that reads keys: what a key means depends on where the learner is.
 
-use crossterm::event::{Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
+use crossterm::event::{
+    Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers, MouseButton, MouseEventKind,
+};
 use ratatui_textarea::Input as Edit;
 
 /// Who gets the keys.
@@ -18,6 +20,8 @@ pub enum Focus {
     Button,
     /// Options, an order, a checklist: single keys are commands.
     Options,
+    /// A cursor on a ball: arrows move it.
+    Place,
     /// The help lies over everything.
     Help,
 }
@@ -47,10 +51,16 @@ pub enum Action {
     OpenEditor,
     /// Tick, grab.
     Toggle,
+    /// Scroll the page by so many lines.
+    Scroll(i16),
     /// An option by its letter or number, from 0.
     Pick(usize),
     Yes,
     No,
+    /// The cursor on a ball, so many cells to the right and down.
+    Move(i16, i16),
+    /// A cell of the screen was clicked: column and row.
+    Click(u16, u16),
     /// A key for the field that has the focus.
     Edit(Edit),
     Paste(String),
@@ -73,6 +83,14 @@ pub fn action(event: Event, focus: Focus) -> Action {
         Event::Key(key) if key.kind != KeyEventKind::Release => of_key(key, focus),
         Event::Paste(text) => Action::Paste(text),
         Event::Resize(..) => Action::Redraw,
+        Event::Mouse(mouse) => match mouse.kind {
+            MouseEventKind::Down(MouseButton::Left) | MouseEventKind::Drag(MouseButton::Left) => {
+                Action::Click(mouse.column, mouse.row)
+            }
+            MouseEventKind::ScrollDown => Action::Scroll(3),
+            MouseEventKind::ScrollUp => Action::Scroll(-3),
+            _ => Action::Nothing,
+        },
         _ => Action::Nothing,
     }
 }
@@ -100,6 +118,7 @@ fn of_key(key: KeyEvent, focus: Focus) -> Action {
         Focus::Button => of_button(key),
         Focus::Page | Focus::Picker => of_page(key),
         Focus::Options => of_options(key),
+        Focus::Place => of_place(key),
     }
 }
 
@@ -159,6 +178,22 @@ fn of_page(key: KeyEvent) -> Action {
         KeyCode::Char('q') => Action::Quit,
         KeyCode::Esc => Action::Leave,
         _ => Action::Nothing,
+    }
+}
+
+fn of_place(key: KeyEvent) -> Action {
+    // With Shift farther.
+    let far = match key.modifiers.contains(KeyModifiers::SHIFT) {
+        true => 4,
+        false => 1,
+    };
+    match key.code {
+        KeyCode::Left | KeyCode::Char('h' | 'H') => Action::Move(-far, 0),
+        KeyCode::Right | KeyCode::Char('l' | 'L') => Action::Move(far, 0),
+        KeyCode::Up | KeyCode::Char('k' | 'K') => Action::Move(0, -far),
+        KeyCode::Down | KeyCode::Char('j' | 'J') => Action::Move(0, far),
+        KeyCode::Enter | KeyCode::Char(' ') => Action::HandIn,
+        _ => of_page(key),
     }
 }
 

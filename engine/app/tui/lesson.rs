@@ -10,6 +10,7 @@ use super::draw::page::Page;
 use super::draw::style::Palette;
 use super::field::Field;
 use super::keys::{Action, Focus};
+use crate::fingerprints::fingerprint;
 use crate::sitting::{Request, Sitting};
 
 /// A pause in typing after which the draft is saved.
@@ -41,6 +42,8 @@ pub struct LessonScreen {
     pub scroll: usize,
     /// The line that came new and is to be seen, however high the window turns out to be.
     follow: Option<usize>,
+    /// The cell of the screen at the upper left of the ball, where there is one.
+    pub ball_at: Option<(u16, u16)>,
     /// Rows in which the page is seen.
     pub window: usize,
     /// Said before the lesson starts, until a key is pressed.
@@ -74,6 +77,7 @@ impl LessonScreen {
             page: Page::new(&shown.blocks, 80, palette),
             scroll: 0,
             follow: None,
+            ball_at: None,
             window: 1,
             greeting,
             leaving_unsaved: None,
@@ -99,6 +103,47 @@ impl LessonScreen {
         }
         self.window = height as usize;
         self.scroll = self.follow.unwrap_or(self.scroll).min(self.last_scroll());
+    }
+
+    /// What is known of the place under the cursor of a ball: where it is, how the light falls
+    /// and how one looks at it, but not how wrong it is.
+    pub fn under_cursor(&self) -> Vec<String> {
+        let (Field::Place(ball), Input::Place { picture, .. }) = (&self.field, &self.shown.input)
+        else {
+            return Vec::new();
+        };
+        let (x, y) = ball.place();
+        let mut lines = vec![
+            format!(
+                "{:.2} to the {}",
+                x.abs(),
+                if x < 0.0 { "left" } else { "right" }
+            ),
+            format!("{:.2} {}", y.abs(), if y < 0.0 { "down" } else { "up" }),
+        ];
+        if x.hypot(y) >= 1.0 {
+            lines.push("beside the ball".to_owned());
+            return lines;
+        }
+        let print = fingerprint(self.sitting.lesson(), picture);
+        match print.and_then(|print| renders::point_at(&print, x, y)) {
+            Some(point) => {
+                lines.push(format!("N·L = {:.2}", point.n_dot_l));
+                lines.push(format!("N·V = {:.2}", point.n_dot_v));
+            }
+            None => lines.push("no light here".to_owned()),
+        }
+        lines
+    }
+
+    /// Has the ball drawn for the place that it gets.
+    pub fn fit_ball(&mut self, rows: u16, at: (u16, u16)) {
+        if let Field::Place(ball) = &mut self.field {
+            ball.fit(self.sitting.lesson(), rows);
+            self.ball_at = Some(at);
+        } else {
+            self.ball_at = None;
+        }
     }
 
     fn last_scroll(&self) -> usize {
@@ -177,6 +222,23 @@ impl LessonScreen {
             Action::Yes => return self.toggle(Some(true)),
             Action::No => return self.toggle(Some(false)),
             Action::Pick(index) => self.pick(index),
+            Action::Move(right, down) => {
+                if let Field::Place(ball) = &mut self.field {
+                    ball.step((right, down));
+                }
+            }
+            Action::Click(column, row) => {
+                if let (Field::Place(ball), Some(at)) = (&mut self.field, self.ball_at)
+                    && let Some(cell) = inside(at, ball.cells(), (column, row))
+                {
+                    ball.at = cell;
+                    self.focus = Focus::Place;
+                }
+            }
+            Action::Scroll(lines) => {
+                let to = self.scroll.saturating_add_signed(lines.into());
+                self.scroll = to.min(self.last_scroll());
+            }
             Action::Edit(edit) => {
                 if self.field.edit(edit) {
                     self.typed = Some(Instant::now());
@@ -226,6 +288,10 @@ impl LessonScreen {
                 let text = self.field.text().unwrap_or_default();
                 self.typed = None;
                 self.send(Msg::Answer(text.trim_end().to_owned()))
+            }
+            Field::Place(ball) => {
+                let answer = ball.answer();
+                self.send(Msg::Answer(answer))
             }
             _ => Flow::Stay,
         }
@@ -396,11 +462,19 @@ fn is_own_ball(block: &Block) -> bool {
 }
 
 /// Whether a field made for one serves for the other, text and all.
+/// The cell of a ball that lies under a cell of the screen.
+fn inside(at: (u16, u16), size: (u16, u16), clicked: (u16, u16)) -> Option<(u16, u16)> {
+    let column = clicked.0.checked_sub(at.0)?;
+    let row = clicked.1.checked_sub(at.1)?;
+    (column < size.0 && row < size.1).then_some((column, row))
+}
+
 fn same_input(a: &Input, b: &Input) -> bool {
     match (a, b) {
         (Input::Text { label: a, .. }, Input::Text { label: b, .. })
         | (Input::Reply { label: a, .. }, Input::Reply { label: b, .. })
-        | (Input::Code { label: a, .. }, Input::Code { label: b, .. }) => a == b,
+        | (Input::Code { label: a, .. }, Input::Code { label: b, .. })
+        | (Input::Place { picture: a, .. }, Input::Place { picture: b, .. }) => a == b,
         (Input::Checklist { points: a }, Input::Checklist { points: b }) => a
             .iter()
             .map(|point| &point.text)

@@ -3,6 +3,7 @@
 //! Nothing is drawn while nothing happens; the loop wakes sooner only while something of its
 //! own is under way (a log being written, a draft to be kept, a picture being drawn).
 
+pub mod ball;
 pub mod draw;
 pub mod field;
 pub mod guard;
@@ -17,6 +18,7 @@ use std::io::stdout;
 use std::sync::Arc;
 use std::time::Duration;
 
+use crossterm::event::{DisableMouseCapture, EnableMouseCapture};
 use crossterm::terminal::{Clear, ClearType};
 use crossterm::{event, execute};
 use ratatui::Frame;
@@ -105,12 +107,21 @@ impl App<'_> {
             Failure::unusable(format!("the terminal gave up: {}", plain_reason(&error)))
         };
         let (guard, mut terminal) = Guard::take().map_err(broken)?;
-        let mut redraw = true;
+        let (mut redraw, mut mouse) = (true, false);
         loop {
             if redraw {
                 let size = terminal.size().map_err(broken)?;
                 self.fit(size.into());
                 terminal.draw(|frame| self.draw(frame)).map_err(broken)?;
+                // Only while it is of use: elsewhere the mouse is the terminal's, to select with.
+                if mouse != self.wants_mouse() {
+                    mouse = !mouse;
+                    match mouse {
+                        true => execute!(stdout(), EnableMouseCapture),
+                        false => execute!(stdout(), DisableMouseCapture),
+                    }
+                    .map_err(broken)?;
+                }
                 // After the first frame, so that it need not wait for the terminal's answer.
                 self.want_pictures();
                 #[cfg(debug_assertions)]
@@ -146,6 +157,14 @@ impl App<'_> {
                 return Ok(());
             }
             redraw |= self.tend();
+        }
+    }
+
+    /// Whether there is something to point at.
+    fn wants_mouse(&self) -> bool {
+        match &self.screen {
+            Screen::Lesson(lesson) => matches!(lesson.field, field::Field::Place(_)),
+            Screen::Picker(_) => false,
         }
     }
 
@@ -248,8 +267,11 @@ impl App<'_> {
         {
             // First for the width, from which the page's height follows, then for the height.
             for _ in 0..2 {
-                let page = draw::lesson::Areas::new(lesson, area).page;
+                let areas = draw::lesson::Areas::new(lesson, area);
+                let page = areas.page;
+                let ball = draw::input::inside(areas.input);
                 lesson.fit(page.width, page.height);
+                lesson.fit_ball(ball.height, (ball.x, ball.y));
             }
         }
     }

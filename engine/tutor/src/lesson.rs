@@ -2,6 +2,7 @@
 
 mod exercise;
 mod fingerprint;
+mod look;
 mod shader;
 
 use std::fmt;
@@ -18,6 +19,7 @@ pub use exercise::{
     ChoiceOption, Exercise, ExerciseStep, NamedMistake, SuspectLine, Task, Tolerance, Variable,
 };
 pub use fingerprint::{Fingerprint, SEEN, STAGING, SceneLight};
+pub use look::{LookTask, Shows};
 pub use shader::ShaderTask;
 
 /// A string of the lesson file and where it stands.

@@ -109,6 +109,14 @@ pub enum Input {
         /// What was typed before, and not yet handed in.
         draft: String,
     },
+    /// A place of a picture; answered by two numbers, how far to the right of the ball's centre
+    /// and how far up, in its radii.
+    Place {
+        /// Id of the fingerprint; its buggy panel is what is looked at.
+        picture: String,
+        /// Where somebody pointed last.
+        at: Option<(f64, f64)>,
+    },
     /// A WGSL function to be changed; what is handed in is the whole text.
     Code {
         /// The function's name.

@@ -2,12 +2,14 @@
 
 use ratatui::Frame;
 use ratatui::layout::{Position, Rect};
+use ratatui::style::{Color, Style};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, BorderType};
 use tutor::view::Input;
 
 use super::style::Palette;
 use crate::text;
+use crate::tui::ball::Ball;
 use crate::tui::field::Field;
 use crate::tui::keys::Focus;
 use crate::tui::lesson::LessonScreen;
@@ -36,6 +38,7 @@ pub fn height(screen: &LessonScreen, width: u16, room: u16) -> u16 {
             };
             lines.clamp(3, most)
         }
+        (Input::Place { .. }, _) => Ball::rows(room),
         (Input::Choice { options }, _) => wrapped_rows(options.iter().map(String::as_str), inner),
         (Input::Order { items }, _) => wrapped_rows(items.iter().map(String::as_str), inner),
         (Input::Checklist { points }, _) => {
@@ -59,7 +62,10 @@ pub fn draw(frame: &mut Frame, area: Rect, screen: &LessonScreen, palette: Palet
         width: area.width.min(WIDEST),
         ..area
     };
-    let focused = matches!(screen.focus, Focus::Line | Focus::Editor | Focus::Options);
+    let focused = matches!(
+        screen.focus,
+        Focus::Line | Focus::Editor | Focus::Options | Focus::Place
+    );
     let view = screen.view();
     let (label, note) = match &view.input {
         Input::None => return,
@@ -68,6 +74,10 @@ pub fn draw(frame: &mut Frame, area: Rect, screen: &LessonScreen, palette: Palet
         }
         Input::Text { label, .. } => (label.clone(), String::new()),
         Input::Code { label, note, .. } => (format!("fn {label}"), note.replace('`', "")),
+        Input::Place { .. } => (
+            "The buggy ball: where would you look?".to_owned(),
+            String::new(),
+        ),
         Input::Choice { .. } => ("Which one?".to_owned(), String::new()),
         Input::Order { .. } => (
             "Put in order".to_owned(),
@@ -123,6 +133,7 @@ pub fn draw(frame: &mut Frame, area: Rect, screen: &LessonScreen, palette: Palet
                 }
             }
         }
+        Field::Place(ball) => draw_ball(frame, inner, ball, screen, palette),
         Field::Choice { at } => {
             if let Input::Choice { options } = &view.input {
                 let rows = options.iter().enumerate().map(|(index, option)| {
@@ -160,6 +171,66 @@ pub fn draw(frame: &mut Frame, area: Rect, screen: &LessonScreen, palette: Palet
                 });
                 list(frame, inner, rows.collect(), focused, palette);
             }
+        }
+    }
+}
+
+/// The cells within the frame of a field.
+pub fn inside(area: Rect) -> Rect {
+    Rect {
+        x: area.x + 1,
+        y: area.y + 1,
+        width: area.width.min(WIDEST).saturating_sub(2),
+        height: area.height.saturating_sub(2),
+    }
+}
+
+/// The ball with its cursor, and what is known of the place under it.
+fn draw_ball(frame: &mut Frame, area: Rect, ball: &Ball, screen: &LessonScreen, palette: Palette) {
+    const SHADES: [char; 5] = [' ', '░', '▒', '▓', '█'];
+    let (columns, rows) = ball.cells();
+    let colour = |[red, green, blue]: [u8; 3]| Color::Rgb(red, green, blue);
+    let brightness = |[red, green, blue]: [u8; 3]| {
+        (3 * u32::from(red) + 6 * u32::from(green) + u32::from(blue)) / 10
+    };
+    for row in 0..rows.min(area.height) {
+        for column in 0..columns.min(area.width) {
+            let pair = ball.cell(column, row);
+            let (sign, style) = match (ball.at == (column, row), palette.has_colours()) {
+                (true, true) => {
+                    let light = brightness(pair[0]) + brightness(pair[1]) > 255;
+                    let (ink, paper) = match light {
+                        true => (Color::Black, Color::White),
+                        false => (Color::Black, Color::Yellow),
+                    };
+                    ('+', Style::new().fg(ink).bg(paper).bold())
+                }
+                (true, false) => ('+', palette.selected()),
+                (false, true) => ('▀', Style::new().fg(colour(pair[0])).bg(colour(pair[1]))),
+                (false, false) => {
+                    let mean = (brightness(pair[0]) + brightness(pair[1])) / 2;
+                    (SHADES[(mean / 52).min(4) as usize], Style::new())
+                }
+            };
+            let at = (area.x + column, area.y + row);
+            if let Some(cell) = frame.buffer_mut().cell_mut(at) {
+                cell.set_char(sign).set_style(style);
+            }
+        }
+    }
+    let beside = Rect {
+        x: area.x + columns.min(area.width) + 2,
+        width: area.width.saturating_sub(columns + 2),
+        ..area
+    };
+    for (row, line) in screen.under_cursor().into_iter().enumerate() {
+        if row < beside.height as usize {
+            let at = Rect {
+                y: beside.y + row as u16,
+                height: 1,
+                ..beside
+            };
+            frame.render_widget(Line::styled(line, palette.quiet()), at);
         }
     }
 }

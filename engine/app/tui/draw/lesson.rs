@@ -27,7 +27,7 @@ pub struct Areas {
     sidebar: Option<Rect>,
     pub page: Rect,
     note: Rect,
-    input: Rect,
+    pub input: Rect,
     footer: Rect,
 }
 
@@ -311,6 +311,13 @@ fn keys(screen: &LessonScreen) -> Vec<Key> {
                 ("PgUp/PgDn", "scroll"),
             ];
             return with_general(keys, &rest);
+        }
+        (Focus::Place, _) => {
+            keys.push(key("↑↓←→", "move (Shift: far)"));
+            keys.push(key("Enter", "look here"));
+            if view.can.next {
+                keys.push(key("Esc Enter", next()));
+            }
         }
         (Focus::Editor, _) => {
             keys.push(key("Ctrl-S", "hand in"));

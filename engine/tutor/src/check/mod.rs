@@ -4,6 +4,7 @@
 mod dialogue;
 mod draws;
 mod formulas;
+pub mod looks;
 mod names;
 mod numbers;
 mod scenes;

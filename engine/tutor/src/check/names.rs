@@ -134,6 +134,11 @@ fn exercise_names(checker: &mut Checker<'_>, exercise: &Exercise) {
             checker.error_in(&mistake.id, "id-given-twice", message);
         }
     }
+    if let Task::Look(look) = &exercise.task {
+        let known = checker.lesson.fingerprints.iter();
+        let known: Vec<&str> = known.map(|it| it.id.text.as_str()).collect();
+        refers(checker, &look.picture, &known, "fingerprint");
+    }
     if let Task::FindTheMistake {
         source: Some(id), ..
     } = &exercise.task

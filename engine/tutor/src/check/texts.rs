@@ -197,6 +197,6 @@ fn exercise_texts(checker: &mut Checker<'_>, exercise: &Exercise) {
             }
         }
         // Its texts are WGSL, where numbers are typed.
-        Task::Shader(_) => {}
+        Task::Look(_) | Task::Shader(_) => {}
     }
 }

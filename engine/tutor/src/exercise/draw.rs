@@ -41,6 +41,8 @@ impl Plan<'_> {
                     Task::Choice { options } => self.choice(&point, options, &mut random),
                     Task::Order { items } => Some(self.order(&point, items, &mut random)),
                     Task::FindTheMistake { lines, .. } => self.suspects(&point, lines),
+                    // Nothing is drawn but the picture.
+                    Task::Look(_) => Some(self.blank(&point, Truth::Order(Vec::new()))),
                 };
                 if let Some(drawn) = drawn {
                     return Ok(Draw {

@@ -4,7 +4,7 @@ use formula::{Digits, Values};
 
 use super::plan::steps_of;
 use super::{Draw, Truth, digits_kept, percent};
-use crate::lesson::{Exercise, Lesson, Task};
+use crate::lesson::{Exercise, Lesson, Shows, Task};
 use crate::prose::{Block, Inline};
 
 /// A hint, from a nudge (1) to the answer with its lines (3); other levels give the nearest.
@@ -30,6 +30,22 @@ pub fn hint(
         Task::Choice { .. } | Task::Order { .. } => {
             let mut blocks = right_words(draw);
             blocks.extend(after_right(lesson, exercise, draw, step));
+            blocks
+        }
+        Task::Look(look) => {
+            let words = match look.shows {
+                Shows::Brighter => {
+                    "Where the third ball is orange, the bug is too bright: the darker the orange, the more."
+                }
+                Shows::Darker => {
+                    "Where the third ball is blue, the bug is too dark: the darker the blue, the more."
+                }
+                Shows::Either => {
+                    "The stronger the colour of the third ball, the more the bug shows there."
+                }
+            };
+            let mut blocks = vec![Block::Paragraph(vec![Inline::Text(words.to_owned())])];
+            blocks.extend(lesson.picture(&look.picture));
             blocks
         }
         Task::Shader(shader) => vec![
@@ -150,6 +166,10 @@ pub fn tolerance_words(exercise: &Exercise) -> String {
     match &exercise.task {
         Task::Choice { .. } => "the number of an option".to_owned(),
         Task::Order { .. } => "all numbers, in order".to_owned(),
+        Task::Look(look) => format!(
+            "a place with at least {} % of the best one's stops",
+            percent(look.near)
+        ),
         Task::Shader(shader) => format!(
             "`{}` within {} % at every point",
             shader.function,

@@ -136,6 +136,7 @@ pub fn mark(
             super::words::mark_line(lesson, lines, answer)
         }
         // Nothing is run here: `mark_shader` takes what came of it.
+        (Task::Look(_), _) => Marking::invalid("A place is marked by what is seen there."),
         (Task::Shader(_), _) => Marking::invalid("A shader is marked by what it computes."),
         _ => mark_number(lesson, exercise, draw, step, answer, earlier),
     }

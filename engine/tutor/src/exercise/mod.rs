@@ -5,6 +5,7 @@
 mod chain;
 mod draw;
 mod hint;
+pub mod look;
 mod mark;
 pub(crate) mod plan;
 pub(crate) mod random;

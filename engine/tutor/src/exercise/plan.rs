@@ -73,7 +73,7 @@ pub fn steps_of(exercise: &Exercise) -> Vec<ExerciseStep> {
             ask: None,
             is: shader.is.clone(),
         }],
-        Task::Choice { .. } | Task::Order { .. } => Vec::new(),
+        Task::Choice { .. } | Task::Order { .. } | Task::Look(_) => Vec::new(),
     }
 }
 

@@ -1,6 +1,6 @@
 //! Exercises as a lesson file gives them.
 
-use super::{Formula, ShaderTask, Text};
+use super::{Formula, LookTask, ShaderTask, Text};
 use crate::finding::Place;
 
 /// How near an answer must be.
@@ -53,13 +53,14 @@ pub struct Exercise {
 }
 
 impl Exercise {
-    /// `numeric`, `choice`, `order`, `find-the-mistake` or `shader`.
+    /// `numeric`, `choice`, `order`, `find-the-mistake`, `look` or `shader`.
     pub fn kind(&self) -> &'static str {
         match self.task {
             Task::Numeric { .. } => "numeric",
             Task::Choice { .. } => "choice",
             Task::Order { .. } => "order",
             Task::FindTheMistake { .. } => "find-the-mistake",
+            Task::Look(_) => "look",
             Task::Shader(_) => "shader",
         }
     }
@@ -92,6 +93,8 @@ pub enum Task {
     },
     /// A WGSL function with a bug: mend it.
     Shader(Box<ShaderTask>),
+    /// A place in a picture where the bug shows.
+    Look(LookTask),
 }
 
 /// One number asked for.

@@ -6,15 +6,22 @@ use super::reader::{self, Table, place};
 use super::{each, each_some};
 use crate::finding::Place;
 use crate::lesson::{
-    ChoiceOption, Exercise, ExerciseStep, Faded, NamedMistake, ShaderTask, SuspectLine, Task, Text,
-    Tolerance, Variable, Worked, WorkedLine,
+    ChoiceOption, Exercise, ExerciseStep, Faded, LookTask, NamedMistake, ShaderTask, Shows,
+    SuspectLine, Task, Text, Tolerance, Variable, Worked, WorkedLine,
 };
 
 /// The most values a variable may take.
 const MOST_VALUES: usize = 10_000;
 
 /// The kinds there are.
-const KINDS: [&str; 5] = ["numeric", "choice", "order", "find-the-mistake", "shader"];
+const KINDS: [&str; 6] = [
+    "numeric",
+    "choice",
+    "order",
+    "find-the-mistake",
+    "look",
+    "shader",
+];
 
 pub fn read(table: &Table<'_, '_>, worked: Option<&Worked>) -> Option<Exercise> {
     let kind = table.text("kind");
@@ -23,6 +30,7 @@ pub fn read(table: &Table<'_, '_>, worked: Option<&Worked>) -> Option<Exercise> 
         "choice" => read_choice(table),
         "order" => read_order(table),
         "find-the-mistake" => read_find_the_mistake(table),
+        "look" => read_look(table),
         "shader" => read_shader(table),
         other => {
             let message = format!("`{other}` is not a kind of exercise.");
@@ -32,7 +40,7 @@ pub fn read(table: &Table<'_, '_>, worked: Option<&Worked>) -> Option<Exercise> 
             // Which keys it should have depends on what was meant.
             for key in [
                 "is", "answer", "steps", "option", "item", "line", "source", "function", "offers",
-                "solution", "scene",
+                "solution", "scene", "picture", "shows", "near",
             ] {
                 let _ = table.get(key);
             }
@@ -226,6 +234,36 @@ fn read_find_the_mistake(table: &Table<'_, '_>) -> Option<Task> {
         return None;
     }
     Some(Task::FindTheMistake { lines, source })
+}
+
+fn read_look(table: &Table<'_, '_>) -> Option<Task> {
+    if table.bool("retest") == Some(true) {
+        let message = "A picture has no fresh numbers: it is not asked again.".to_owned();
+        table.wrong("retest", "nothing-drawn", message, "no `retest`");
+    }
+    let shows = match table.text("shows") {
+        None => Shows::Either,
+        Some(word) => Shows::parse(&word).unwrap_or_else(|| {
+            let message = format!("`{word}` is not what a bug does.");
+            table.wrong(
+                "shows",
+                "unknown-name",
+                message,
+                "brighter, darker or either",
+            );
+            Shows::Either
+        }),
+    };
+    let near = table.number("near");
+    if near.is_some_and(|near| !(near > 0.0 && near <= 1.0)) {
+        let message = "The share of the best place lies between 0 and 1.".to_owned();
+        table.wrong("near", "empty-range", message, "near = 0.5");
+    }
+    Some(Task::Look(LookTask {
+        picture: table.need_text("picture"),
+        shows,
+        near: near.unwrap_or(0.5),
+    }))
 }
 
 fn read_shader(table: &Table<'_, '_>) -> Option<Task> {

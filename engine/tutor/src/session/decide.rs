@@ -3,6 +3,7 @@
 use super::Session;
 use super::dialogue::Asked;
 use super::event::{Effect, Event, Msg, Quote};
+use super::pointing::Pointing;
 use super::problem::{Problem, WHOLE};
 use super::question::{Heard, Question, Try};
 use super::run::Running;
@@ -28,6 +29,8 @@ pub(super) struct Decided {
     pub(super) asks_nobody: Option<(String, u32)>,
     /// A shader that runs from here on.
     pub(super) running: Option<Running>,
+    /// A place that is looked at from here on.
+    pub(super) pointing: Option<Pointing>,
     pub(super) quit: bool,
 }
 
@@ -84,6 +87,7 @@ impl Session {
                 said,
             } => self.second_opinion_came(&item, attempt, by, said),
             Msg::Ran(ran) => self.ran(&ran),
+            Msg::Looked(sight) => self.looked(&sight),
             Msg::SaveFailed(why) => Decided {
                 saving: Some(Saving::Failed(why)),
                 note: self.view.note.take(),
@@ -113,6 +117,9 @@ impl Session {
         }
         if let Some(running) = decided.running.take() {
             self.running = Some(running);
+        }
+        if let Some(pointing) = decided.pointing.take() {
+            self.pointing = Some(pointing);
         }
         let ended = (*self.here() == Screen::Result).then(|| self.verdict());
         if let Some((grade, words)) = ended.filter(|ended| self.finished.as_ref() != Some(ended)) {
@@ -324,6 +331,9 @@ impl Session {
         match (self.open(), self.here()) {
             (Open::Step(problem, _), screen) if self.shader(screen).is_some() => {
                 self.hand_in_shader(screen, problem, text)
+            }
+            (Open::Step(..), screen) if !empty && self.look(screen).is_some() => {
+                self.point_at(screen, text)
             }
             (Open::Step(problem, step), screen) if !empty => {
                 self.answer_step(screen, problem, step, text)

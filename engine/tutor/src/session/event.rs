@@ -1,6 +1,7 @@
 //! What comes in, what goes out, and what is kept of a session.
 
 pub use super::dialogue::Rung;
+use crate::exercise::look::Sight;
 use crate::exercise::shader::{Job, Ran};
 use crate::judge::Why;
 use crate::opinion::Finding;
@@ -43,6 +44,8 @@ pub enum Msg {
         /// What came back, unchecked; or why nothing did.
         said: Result<Vec<Finding>, String>,
     },
+    /// What is seen at the place that [`Effect::Look`] asked about.
+    Looked(Sight),
     /// What came of the shader that [`Effect::Run`] asked to have run.
     Ran(Ran),
     /// The log could not be written, and why.
@@ -79,6 +82,15 @@ pub enum Effect {
     },
     /// The learner waits for it no longer.
     StopConsulting,
+    /// Say what is seen at a place of a picture, with [`Msg::Looked`].
+    Look {
+        /// Id of the fingerprint.
+        picture: String,
+        /// To the right of the disc's centre, in its radii.
+        x: f64,
+        /// Upwards.
+        y: f64,
+    },
     /// Have the learner's shader run, somewhere it can do no harm, and answer with [`Msg::Ran`].
     Run(Box<Job>),
     /// Leave.

@@ -11,6 +11,7 @@ mod decide;
 mod dialogue;
 mod event;
 mod outcome;
+mod pointing;
 mod problem;
 pub mod progress;
 mod question;
@@ -70,6 +71,8 @@ pub struct Session {
     finished: Option<(Grade, String)>,
     /// The shader that runs elsewhere.
     running: Option<run::Running>,
+    /// The place that is being looked at.
+    pointing: Option<pointing::Pointing>,
     /// Decided on resuming, and saved with the next message.
     pending: Vec<Event>,
     /// Second opinions are to be had.
@@ -94,6 +97,7 @@ impl Session {
             diverged: false,
             finished: None,
             running: None,
+            pointing: None,
             pending: Vec::new(),
             consults: false,
             waiting: None,

@@ -77,7 +77,9 @@ impl Problem {
         let mut asked: Vec<String> = match &exercise.task {
             Task::Numeric { steps } => steps.iter().map(|step| step.name.text.clone()).collect(),
             Task::FindTheMistake { .. } => vec!["line".to_owned(), "answer".to_owned()],
-            Task::Choice { .. } | Task::Order { .. } | Task::Shader(_) => vec![WHOLE.to_owned()],
+            Task::Choice { .. } | Task::Order { .. } | Task::Look(_) | Task::Shader(_) => {
+                vec![WHOLE.to_owned()]
+            }
         };
         asked.drain(..last.map_or(0, |last| asked.len().saturating_sub(last)));
         Problem {
@@ -162,6 +164,14 @@ impl Problem {
                 }
             })
             .collect()
+    }
+
+    /// The place pointed at last, of a picture.
+    pub(super) fn place(&self) -> Option<(f64, f64)> {
+        self.turns.iter().rev().find_map(|turn| match turn {
+            Turn::Attempt { text, .. } => crate::exercise::look::place(text).ok(),
+            Turn::Hint { .. } | Turn::GoneOn { .. } => None,
+        })
     }
 
     /// The text of a shader as it stands: the draft, else the last one run, else the lesson's.

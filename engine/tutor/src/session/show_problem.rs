@@ -77,6 +77,7 @@ fn heading(screen: &Screen, exercise: &Exercise, problem: &Problem) -> String {
         Task::Choice { .. } => "Choose one",
         Task::Order { .. } => "Put them in order",
         Task::FindTheMistake { .. } => "Find the mistake",
+        Task::Look(_) => "Where would you look?",
         Task::Shader(_) => "Mend the shader",
     };
     let task = exercise.title.as_ref().map_or(task, |title| &title.text);
@@ -220,6 +221,9 @@ fn said(lesson: &Lesson, exercise: &Exercise, problem: &Problem, turn: &Turn) ->
                     blocks.push(verdict(tone, title, value));
                     blocks.extend(after);
                 }
+                if let Task::Look(look) = &exercise.task {
+                    blocks.extend(lesson.picture(&look.picture));
+                }
                 return blocks;
             }
             let says = untitled(says);
@@ -326,6 +330,10 @@ pub(super) fn input(session: &Session, problem: &Problem, step: &str) -> Input {
         Task::Order { .. } => Input::Order {
             items: draw.shown.clone(),
         },
+        Task::Look(look) => Input::Place {
+            picture: look.picture.text.clone(),
+            at: problem.place(),
+        },
         Task::Shader(shader) => Input::Code {
             label: shader.function.text.clone(),
             note: exercise::tolerance_words(exercise),
@@ -365,6 +373,9 @@ pub(super) fn still_asked(session: &Session, screen: &Screen) -> Vec<Block> {
                 .map(|option| session.lesson.inline(option, &Values::new()))
                 .collect(),
         }],
+        Task::Look(_) => vec![paragraph(
+            "Asked: the place on the ball where you would look.",
+        )],
         Task::Shader(shader) => vec![
             Block::CodeBlock(shader.source.trim_end().to_owned()),
             paragraph(format!("Asked: {}.", exercise::tolerance_words(exercise))),
@@ -410,6 +421,7 @@ fn meant(exercise: &Exercise, problem: &Problem, typed: &str) -> Option<String> 
                 .filter(|texts| texts.len() == shown.len())
                 .map(|texts| texts.join(" → "))
         }
+        Task::Look(_) => Some(super::pointing::words(typed)),
         Task::Numeric { .. } | Task::FindTheMistake { .. } | Task::Shader(_) => None,
     }
 }

@@ -8,6 +8,7 @@ mod dialogue;
 mod explain;
 mod flow;
 mod listing;
+mod look;
 mod numbers;
 mod replay;
 mod shader;
@@ -44,7 +45,8 @@ fn send(session: &mut Session, msgs: impl IntoIterator<Item = Msg>) -> Vec<Event
                 | Effect::Consult { .. }
                 | Effect::StopConsulting
                 | Effect::Run(_)
-                | Effect::Quit => {}
+                | Effect::Quit
+                | Effect::Look { .. } => {}
             }
         }
     }
@@ -113,6 +115,7 @@ fn input(session: &Session) -> &'static str {
         Input::Text { .. } => "text",
         Input::Reply { .. } => "reply",
         Input::Code { .. } => "code",
+        Input::Place { .. } => "place",
         Input::Choice { .. } => "choice",
         Input::Order { .. } => "order",
         Input::Checklist { .. } => "checklist",

@@ -23,7 +23,8 @@ fn send(session: &mut Session, log: &mut Vec<Event>, msg: Msg) {
             | Effect::Consult { .. }
             | Effect::StopConsulting
             | Effect::Run(_)
-            | Effect::Quit => {}
+            | Effect::Quit
+            | Effect::Look { .. } => {}
         }
     }
 }
