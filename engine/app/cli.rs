@@ -345,6 +345,9 @@ pub struct Stress {
     /// A short search: seconds instead of minutes
     #[arg(long)]
     pub quick: bool,
+    /// Other points: the same number finds the same
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
     /// Print JSON, one object a line
     #[arg(long)]
     pub json: bool,

@@ -7,33 +7,35 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::thread;
 
-use brdf::Term;
 use serde::{Serialize, Serializer};
-use truth::stress::{Effort, Finding, Precision, search, subjects};
+use truth::stress::{Effort, Finding, Precision, Subject, search, subjects};
 
 use crate::cli::Stress;
 use crate::exit::{Done, Failure};
 use crate::{lessons, output, text};
 
-/// The same points in every run: a finding can be looked at again.
-const SEED: u64 = 1;
-
 pub fn run(args: &Stress) -> Result<Done, Failure> {
-    let effort = if args.quick {
-        Effort::QUICK
-    } else {
-        Effort::THOROUGH
+    let effort = |precision| {
+        if args.quick {
+            Effort::QUICK
+        } else {
+            Effort::thorough(precision)
+        }
     };
-    let terms = wanted(&args.names)?;
-    let tasks: Vec<(Precision, &'static Term)> = [Precision::Single, Precision::Double]
+    let subjects = wanted(&args.names)?;
+    let tasks: Vec<(Precision, &'static Subject)> = [Precision::Single, Precision::Double]
         .into_iter()
-        .flat_map(|precision| terms.iter().map(move |&term| (precision, term)))
+        .flat_map(|precision| subjects.iter().map(move |&subject| (precision, subject)))
+        .filter(|(precision, subject)| subject.has(*precision))
         .collect();
     if !args.json {
         output::text(&heading())?;
     }
     let mut bad = 0;
-    search_all(&tasks, effort, |finding| {
+    let find = |&(precision, subject): &(Precision, &'static Subject)| {
+        search(subject, precision, effort(precision), args.seed)
+    };
+    search_all(&tasks, find, |finding| {
         bad += usize::from(!finding.ok());
         if args.json {
             output::json(&Line::of(finding))
@@ -51,17 +53,17 @@ pub fn run(args: &Stress) -> Result<Done, Failure> {
     Ok(Done::found(bad > 0))
 }
 
-/// The terms of those names, or all.
-fn wanted(names: &[String]) -> Result<Vec<&'static Term>, Failure> {
-    let all: Vec<&'static Term> = subjects().collect();
+/// The subjects of those names, or all.
+fn wanted(names: &[String]) -> Result<Vec<&'static Subject>, Failure> {
+    let all: Vec<&'static Subject> = subjects().iter().collect();
     if names.is_empty() {
         return Ok(all);
     }
     let find = |name: &String| {
-        let found = all.iter().copied().find(|term| term.name == name);
+        let found = all.iter().copied().find(|subject| subject.name == name);
         found.ok_or_else(|| {
-            let known = all.iter().map(|term| term.name);
-            let hint = "`lobe stress --quick` names all that have a closed form";
+            let known = all.iter().map(|subject| subject.name);
+            let hint = "`lobe stress --quick` names all that can be searched";
             lessons::unknown("function", name, known, hint)
         })
     };
@@ -70,8 +72,8 @@ fn wanted(names: &[String]) -> Result<Vec<&'static Term>, Failure> {
 
 /// Searches on all cores and hands the findings over in the order of the tasks.
 fn search_all(
-    tasks: &[(Precision, &'static Term)],
-    effort: Effort,
+    tasks: &[(Precision, &'static Subject)],
+    find: impl Fn(&(Precision, &'static Subject)) -> Finding + Sync,
     mut found: impl FnMut(&Finding) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
     let next = AtomicUsize::new(0);
@@ -79,16 +81,15 @@ fn search_all(
     thread::scope(|scope| {
         let (sender, receiver) = mpsc::channel();
         for _ in 0..cores.min(tasks.len()) {
-            let (sender, next) = (sender.clone(), &next);
+            let (sender, next, find) = (sender.clone(), &next, &find);
             scope.spawn(move || {
                 loop {
                     let index = next.fetch_add(1, Ordering::Relaxed);
-                    let Some(&(precision, term)) = tasks.get(index) else {
+                    let Some(task) = tasks.get(index) else {
                         return;
                     };
-                    let finding = search(term, precision, effort, SEED);
                     // Nobody listens any more where the output went away.
-                    if sender.send((index, finding)).is_err() {
+                    if sender.send((index, find(task))).is_err() {
                         return;
                     }
                 }
@@ -115,18 +116,20 @@ fn search_all(
 fn heading() -> String {
     format!(
         "The worst error found, in units of the last place (ulp) of the true value, against the\n\
-         textbook forms in high precision; alpha from 1e-4, cosines from 1e-6.\n\n  \
+         textbook forms in high precision; alpha from 1e-4, cosines from 1e-6. Of drawn directions\n\
+         and of world space, beyond what half a unit in the last place of the arguments changes.\n\n  \
          {:<26} {:<4} {:>8} {:>6} {:>10}  at\n",
         "function", "", "ulp", "bound", "not finite"
     )
 }
 
 fn row(finding: &Finding) -> String {
-    let at: Vec<String> = finding
-        .at
-        .iter()
-        .map(|&(name, x)| format!("{name}={}", shortest(x, finding.precision)))
-        .collect();
+    let point = |at: &[(&str, f64)]| {
+        let at = at.iter();
+        at.map(|&(name, x)| format!("{name}={}", shortest(x, finding.precision)))
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
     let first = format!(
         "{} {:<26} {:<4} {:>8.2} {:>6} {:>10}  ",
         if finding.ok() { ' ' } else { '!' },
@@ -137,9 +140,12 @@ fn row(finding: &Finding) -> String {
         finding.nonfinite,
     );
     let rest = " ".repeat(first.chars().count());
-    let mut lines = text::wrap_plain(&at.join(", "), 120, &first, &rest).join("\n");
-    lines.push('\n');
-    lines
+    let mut lines = text::wrap_plain(&point(&finding.at), 120, &first, &rest);
+    if let Some(odd) = &finding.odd {
+        let says = format!("{}: {}", odd.fault.says(), point(&odd.at));
+        lines.extend(text::wrap_plain(&says, 120, &rest, &rest));
+    }
+    lines.join("\n") + "\n"
 }
 
 /// The fewest digits that give the number back.

@@ -25,6 +25,7 @@ pub fn d_ggx<R: Real>(n_dot_h: R, alpha: R) -> R {
         return lit(0.0);
     }
     let c = n_dot_h.at_most(lit(1.0));
+    let alpha = alpha.bounded();
     let sin2 = (lit::<R>(1.0) - c) * (lit::<R>(1.0) + c);
     let ac = alpha * c;
     // At the peak itself α/α² would be 0/0 for an α whose square underflows.
@@ -63,9 +64,21 @@ pub fn d_ggx_aniso<R: Real>(h_x: R, h_y: R, h_z: R, alpha_x: R, alpha_y: R) -> R
     let width = |alpha: R| alpha.abs().at_most(lit(R::LARGE));
     let (alpha_x, alpha_y) = (width(alpha_x), width(alpha_y));
     // Without width along an axis no facet leans along it: 0, or ∞ where none needs to.
-    let over = |h: R, alpha: R| if h == lit(0.0) { h } else { h / alpha };
-    let (x, y) = (over(h_x, alpha_x), over(h_y, alpha_y));
-    let t = x * x + y * y + h_z * h_z;
+    let over_squared = |h: R, alpha: R| {
+        if h == lit(0.0) {
+            return h;
+        }
+        // With the rounding error of the quotient: t counts twice.
+        let (q, q_low) = quotient((h, lit(0.0)), (alpha, lit(0.0)));
+        let square = q * q;
+        if square.is_finite() {
+            square + lit::<R>(2.0) * q * q_low
+        } else {
+            square
+        }
+    };
+    let (x2, y2) = (over_squared(h_x, alpha_x), over_squared(h_y, alpha_y));
+    let t = x2 + y2 + h_z * h_z;
     if t > lit(0.0) && !t.is_finite() {
         return lit(0.0);
     }
@@ -170,7 +183,7 @@ pub fn d_blinn_phong<R: Real>(n_dot_h: R, alpha: R) -> R {
     if n_dot_h < lit(0.0) {
         return lit(0.0);
     }
-    let c = n_dot_h.at_most(lit(1.0));
+    let c = n_dot_h.clamp_unit();
     let t = lit::<R>(1.0) / alpha;
     if c == lit(1.0) {
         return t * t * lit(FRAC_1_PI);

@@ -23,7 +23,7 @@ pub(crate) const TERMS: &[Term] = &[
 /// Lambert: albedo/π, the same in every direction.
 #[inline(always)]
 pub fn diffuse_lambert<R: Real>(albedo: R) -> R {
-    albedo.at_least(lit(0.0)) * lit(FRAC_1_PI)
+    albedo.at_least(lit(0.0)).bounded() * lit(FRAC_1_PI)
 }
 
 const DIFFUSE_LAMBERT: Term = entry!(
@@ -36,6 +36,15 @@ const DIFFUSE_LAMBERT: Term = entry!(
 }")
 );
 
+/// 1 − (1 − c)⁵ = c (1 + x + x² + x³ + x⁴), x = 1 − c: no difference left.
+#[inline(always)]
+fn one_minus_pow5<R: Real>(c: R) -> R {
+    let one = lit::<R>(1.0);
+    let x = one - c;
+    let x2 = x * x;
+    c * (one + (x + x2) + (x + x2) * x2)
+}
+
 /// Disney: (albedo/π) (1 + (fd90 − 1)(1 − N·L)⁵)(1 + (fd90 − 1)(1 − N·V)⁵),
 /// fd90 = 0.5 + 2 roughness (V·H)².
 ///
@@ -46,7 +55,14 @@ pub fn diffuse_disney<R: Real>(n_dot_l: R, n_dot_v: R, v_dot_h: R, roughness: R,
         let one = lit::<R>(1.0);
         let retro =
             lit::<R>(2.0) * roughness.clamp_unit() * v_dot_h.clamp_unit().squared() - lit(0.5);
-        let factor = |c: R| one + retro * (one - c).pow5();
+        let factor = |c: R| {
+            if c < lit(0.2) {
+                // Without the fifth power of a rounded 1 − c, which is close to 1.
+                (one + retro) - retro * one_minus_pow5(c)
+            } else {
+                one + retro * (one - c).pow5()
+            }
+        };
         diffuse_lambert(albedo) * factor(l) * factor(v)
     })
 }
@@ -153,7 +169,7 @@ pub fn diffuse_oren_nayar_full<R: Real>(
         let one = lit::<R>(1.0);
         let (low, high) = ordered(l, v);
         let cos_phi = cos_phi.at_least(-one).at_most(one);
-        let albedo = albedo.at_least(lit(0.0));
+        let albedo = albedo.at_least(lit(0.0)).bounded();
         let (sin_alpha, sin_beta) = (sine(low), sine(high));
         let tan_beta = (sin_beta / high).at_most(lit(R::LARGE));
         let tan_half = ((sin_alpha + sin_beta) / (low + high)).at_most(lit(R::LARGE));
@@ -203,15 +219,6 @@ const DIFFUSE_OREN_NAYAR_FULL: Term = entry!(
 }"))
 );
 
-/// 1 − (1 − c)⁵ = c (1 + x + x² + x³ + x⁴), x = 1 − c: no difference left.
-#[inline(always)]
-fn one_minus_pow5<R: Real>(c: R) -> R {
-    let one = lit::<R>(1.0);
-    let x = one - c;
-    let x2 = x * x;
-    c * (one + (x + x2) + (x + x2) * x2)
-}
-
 /// Hammon's diffuse for GGX: albedo (single + albedo multi), single = lerp(smooth, rough, α)/π.
 ///
 /// Hammon 2017: facing = 0.5 + 0.5 L·V, rough = facing (0.9 − 0.4 facing)(0.5 + N·H)/N·H,
@@ -228,7 +235,7 @@ fn one_minus_pow5<R: Real>(c: R) -> R {
 pub fn diffuse_hammon<R: Real>(n_dot_l: R, n_dot_v: R, l_dot_v: R, alpha: R, albedo: R) -> R {
     above_horizon(n_dot_l, n_dot_v, |l, v| {
         let one = lit::<R>(1.0);
-        let (alpha, albedo) = (alpha.clamp_unit(), albedo.at_least(lit(0.0)));
+        let (alpha, albedo) = (alpha.clamp_unit(), albedo.at_least(lit(0.0)).bounded());
         let two_facing = one + l_dot_v.at_least(-one).at_most(one);
         let facing = lit::<R>(0.5) * two_facing;
         // |L + V|/(N·L + N·V), which is 1/N·H.

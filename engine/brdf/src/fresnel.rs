@@ -3,7 +3,7 @@
 //! `v_dot_h` is the cosine between the direction and the facet it is mirrored in; N·V where
 //! the surface itself is the mirror. It counts as 0 below 0 and as 1 above 1.
 
-use crate::real::{Real, lit, one_minus_square, zero_unless_nan};
+use crate::real::{Real, lit, one_minus_square, split, zero_unless_nan};
 use crate::term::{F0, Param, Term, V_DOT_H, entry};
 
 pub(crate) const TERMS: &[Term] = &[
@@ -22,6 +22,7 @@ pub(crate) const TERMS: &[Term] = &[
 /// Schlick 1994, eq. 15. From f0 at normal incidence to 1 at grazing.
 #[inline(always)]
 pub fn f_schlick<R: Real>(f0: R, v_dot_h: R) -> R {
+    let f0 = f0.bounded();
     f0 + (lit::<R>(1.0) - f0) * (lit::<R>(1.0) - v_dot_h.clamp_unit()).pow5()
 }
 
@@ -51,14 +52,8 @@ pub fn f_spherical_gaussian<R: Real>(f0: R, v_dot_h: R) -> R {
     let (z, z_low) = y.two_prod(u);
     let low = z_low + (y_low + (x_low + a.1 * u + b.1)) * u;
     let power = z.exp2() * (lit::<R>(1.0) + low * lit(std::f64::consts::LN_2));
+    let f0 = f0.bounded();
     f0 + (lit::<R>(1.0) - f0) * power
-}
-
-/// A constant as an unevaluated sum.
-#[inline(always)]
-fn split<R: Real>(x: f64) -> (R, R) {
-    let high = lit::<R>(x);
-    (high, lit(x - high.to_f64()))
 }
 
 const F_SPHERICAL_GAUSSIAN: Term = entry!(
@@ -334,11 +329,12 @@ fn conductor<R: Real>(n: R, k: R, v_dot_h: R) -> (R, R) {
     let b2_k2 = b2 - k * k;
     let n2_1 = (nn - one) + nn_low;
     let cancels = |difference: R, sum: R| t0 > zero && difference.abs() < half * sum;
+    let without = |x: R, share: R| x - x * share;
     let (plus, plus_low) = a.two_sum(c);
     let plus_low = plus_low + a_low;
     let minus = (a - c) + a_low;
     let minus = if cancels(minus, plus) {
-        (n2_1 + b2_k2) / plus * (one - plus_low / plus)
+        without(n2_1 + b2_k2, plus_low / plus) / plus
     } else {
         minus
     };
@@ -353,7 +349,7 @@ fn conductor<R: Real>(n: R, k: R, v_dot_h: R) -> (R, R) {
     let difference = (ac - s2) + (ac_low - s2_low + a_low * c);
     let difference = if cancels(difference, sum) {
         let above = squares_above_one(c.two_prod(n), c).0 + c * c * b2_k2;
-        above / sum * (one - sum_low / sum)
+        without(above, sum_low / sum) / sum
     } else {
         difference
     };
@@ -463,6 +459,7 @@ const T_CONDUCTOR: Term = entry!(
 /// Not kept in [0, 1]: a large `a` makes it negative.
 #[inline(always)]
 pub fn f_lazanyi<R: Real>(f0: R, a: R, v_dot_h: R) -> R {
+    let (f0, a) = (f0.bounded(), a.bounded());
     let u = v_dot_h.clamp_unit();
     let m = lit::<R>(1.0) - u;
     let m5 = m.pow5();

@@ -1,4 +1,4 @@
-//! GGX from vectors in the tangent frame: evaluate, sample, density.
+//! GGX from vectors in the tangent frame; [`crate::sampling`] draws them.
 //!
 //! Given vectors instead of cosines nothing cancels: sin²θ is x² + y², the half vector is
 //! used as l + v without its length, and 1 − V·H is |l − v|²/(4 (1 + V·H)). Directions are
@@ -6,8 +6,9 @@
 
 use crate::fresnel::{conductor_rgb, f_dielectric};
 use crate::real::{Real, lit, zero_unless_nan};
-use crate::vector::{Vector, add, normalize, reflect, rescued, tamed};
-use std::f64::consts::{FRAC_1_PI, PI};
+use crate::sampling::{Sample, Sampler};
+use crate::vector::{Vector, rescued, tamed};
+use std::f64::consts::FRAC_1_PI;
 
 /// A GGX surface: its widths along the tangent and the bitangent.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,31 +17,6 @@ pub struct Ggx<R> {
     pub alpha_x: R,
     /// Width along the bitangent, more than 0.
     pub alpha_y: R,
-}
-
-/// How to draw directions.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Sampler {
-    /// Visible normals from a projected hemisphere (Heitz 2018, JCGT 7-4).
-    Hemisphere,
-    /// The same normals from a spherical cap (Dupuy and Benyoub 2023, CGF 42-8, algorithm 1).
-    SphericalCap,
-    /// A cap without directions that must end below the horizon (Eto and Tokuyoshi 2023,
-    /// SIGGRAPH Asia technical communications). The best of them, but for α near 1.
-    BoundedCap,
-    /// Proportional to the cosine, without knowledge of the surface.
-    Cosine,
-}
-
-/// A drawn direction.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sample<R> {
-    /// The direction of the light. Below the horizon the weight is 0.
-    pub l: Vector<R>,
-    /// BRDF (F = 1) times N·L over the density.
-    pub weight: R,
-    /// Density with respect to the solid angle of `l`, in 1/sr.
-    pub pdf: R,
 }
 
 impl<R: Real> Ggx<R> {
@@ -54,7 +30,7 @@ impl<R: Real> Ggx<R> {
     }
 
     /// The same with widths whose squares can be computed with.
-    fn tamed(&self) -> Ggx<R> {
+    pub(crate) fn tamed(&self) -> Ggx<R> {
         let width = |alpha: R| alpha.abs().at_least(lit(1e-9)).at_most(lit(1e6));
         Ggx {
             alpha_x: width(self.alpha_x),
@@ -64,7 +40,7 @@ impl<R: Real> Ggx<R> {
 
     /// x and y of a vector, each times its width.
     #[inline(always)]
-    fn stretched(&self, v: Vector<R>) -> (R, R) {
+    pub(crate) fn stretched(&self, v: Vector<R>) -> (R, R) {
         (self.alpha_x * v[0], self.alpha_y * v[1])
     }
 
@@ -99,7 +75,7 @@ impl<R: Real> Ggx<R> {
     }
 
     #[inline(always)]
-    fn d_of_sum(&self, l: Vector<R>, v: Vector<R>) -> R {
+    pub(crate) fn d_of_sum(&self, l: Vector<R>, v: Vector<R>) -> R {
         let (x, y, z) = (l[0].two_sum(v[0]), l[1].two_sum(v[1]), l[2].two_sum(v[2]));
         self.d_squares([x.0, y.0, z.0], [square(x), square(y), square(z)])
     }
@@ -112,17 +88,29 @@ impl<R: Real> Ggx<R> {
         }
         // t times α_x α_y, without quotients where the widths are the same.
         let product = self.alpha_x * self.alpha_y;
-        let across = if self.alpha_x == self.alpha_y {
-            x + y
+        let (xy, xy_low) = x.two_sum(y);
+        let (across, across_low) = if self.alpha_x == self.alpha_y {
+            (xy, xy_low)
         } else {
-            x * (self.alpha_y / self.alpha_x) + y * (self.alpha_x / self.alpha_y)
+            let ratio = self.alpha_y / self.alpha_x;
+            (x * ratio + y / ratio, lit(0.0))
         };
-        let m = x + y + z;
+        let (m, m_low) = xy.two_sum(z);
         if m == lit(0.0) {
             return m;
         }
-        let q = m / (across + product * z);
-        product * (q * q) * lit(FRAC_1_PI)
+        // The quotient counts twice, so that the sums keep their rounding errors.
+        let (t, t_low) = across.two_sum(product * z);
+        let q = m / t;
+        let low = ((m_low + xy_low) - q * (t_low + across_low)) / t;
+        let q = if low.is_finite() { q + low } else { q };
+        // One by one: q² overflows where D does not.
+        let d = product * q * q * lit(FRAC_1_PI);
+        if d.is_finite() {
+            d
+        } else {
+            smooth_d(h[0], h[1], h[2], self.alpha_x, self.alpha_y, d)
+        }
     }
 
     /// Λ of a direction, see [`crate::lambda_ggx`]; +∞ at and below the horizon.
@@ -165,11 +153,11 @@ impl<R: Real> Ggx<R> {
     }
 
     #[inline(always)]
-    fn visibility_of(&self, l: Vector<R>, v: Vector<R>) -> R {
+    pub(crate) fn visibility_of(&self, l: Vector<R>, v: Vector<R>) -> R {
         if l[2] < lit(0.0) || v[2] < lit(0.0) {
             return zero_unless_nan([l[2], v[2]]);
         }
-        lit::<R>(0.5) / (l[2] * self.projected(v) + v[2] * self.projected(l))
+        lit::<R>(0.5) / (l[2] * self.projected(v) + v[2] * self.projected(l)).abs()
     }
 
     /// The BRDF with F = 1: D V, in 1/sr.
@@ -182,134 +170,20 @@ impl<R: Real> Ggx<R> {
             ggx.d_of_sum(l, v) * ggx.visibility_of(l, v)
         })
     }
-
-    /// Density with which [`Ggx::sample`] draws `l` for a view `v`, in 1/sr, for `l` above the
-    /// horizon. Below it only [`Sampler::BoundedCap`] may never draw what has a density here.
-    #[inline(always)]
-    pub fn pdf(&self, l: impl Into<Vector<R>>, v: impl Into<Vector<R>>, sampler: Sampler) -> R {
-        let (l, v) = (l.into(), v.into());
-        if sampler == Sampler::Cosine {
-            return l[2].at_least(lit(0.0)) * lit(FRAC_1_PI);
-        }
-        let value = self.d_of_sum(l, v) * self.visible_share(v, sampler);
-        rescued(value, (l, v), (*self, sampler), |(ggx, sampler), l, v| {
-            let ggx = ggx.tamed();
-            ggx.d_of_sum(l, v) * ggx.visible_share(v, sampler)
-        })
-    }
-
-    /// Density over D: 1/(2 (N·V + sqrt(…))), the normalisation of the visible normals over
-    /// the 4 V·H of the mirror.
-    #[inline(always)]
-    fn visible_share(&self, v: Vector<R>, sampler: Sampler) -> R {
-        let length = self.projected(v);
-        let z = v[2];
-        if z < lit(0.0) {
-            // z + length without the difference.
-            let (x, y) = self.stretched(v);
-            return lit::<R>(0.5) * (length - z) / (x * x + y * y);
-        }
-        let k = if sampler == Sampler::BoundedCap {
-            self.cap_bound(v)
-        } else {
-            lit(1.0)
-        };
-        lit::<R>(0.5) / (k * z + length)
-    }
-
-    /// How far down the cap of a view has to reach: Eto and Tokuyoshi's k.
-    #[inline(always)]
-    fn cap_bound(&self, v: Vector<R>) -> R {
-        let one = lit::<R>(1.0);
-        let a = self.alpha_x.at_most(self.alpha_y).clamp_unit();
-        let s = one + (v[0] * v[0] + v[1] * v[1]).sqrt();
-        let (a2, s2) = (a * a, s * s);
-        (one - a) * (one + a) * s2 / (s2 + a2 * (v[2] * v[2]))
-    }
-
-    /// Draws a light for a view from two numbers in [0, 1).
-    ///
-    /// The weight is G₂/G₁ for visible normals, and BRDF · N·L / density for the others.
-    pub fn sample(&self, v: impl Into<Vector<R>>, u: [R; 2], sampler: Sampler) -> Sample<R> {
-        let v = v.into();
-        let l = match sampler {
-            Sampler::Cosine => cosine_direction(u),
-            Sampler::Hemisphere => reflect(v, self.visible_normal(v, u)),
-            Sampler::SphericalCap => self.cap_direction(v, u, lit(1.0)),
-            Sampler::BoundedCap if v[2] > lit(0.0) => self.cap_direction(v, u, self.cap_bound(v)),
-            Sampler::BoundedCap => self.cap_direction(v, u, lit(1.0)),
-        };
-        let d = self.d_between(l, v);
-        let pdf = match sampler {
-            Sampler::Cosine => l[2].at_least(lit(0.0)) * lit(FRAC_1_PI),
-            _ => d * self.visible_share(v, sampler),
-        };
-        let weight = if l[2] <= lit(0.0) || v[2] <= lit(0.0) {
-            zero_unless_nan([l[2], v[2]])
-        } else if sampler == Sampler::Cosine {
-            d * self.visibility(l, v) * lit(PI)
-        } else {
-            self.visibility(l, v) * l[2] / self.visible_share(v, sampler)
-        };
-        Sample { l, weight, pdf }
-    }
-
-    /// A normal that is visible from `v` (Heitz 2018).
-    fn visible_normal(&self, v: Vector<R>, u: [R; 2]) -> Vector<R> {
-        let (zero, one) = (lit::<R>(0.0), lit::<R>(1.0));
-        let (x, y) = self.stretched(v);
-        let view = normalize([x, y, v[2]]);
-        let across = view[0] * view[0] + view[1] * view[1];
-        let t1 = if across > zero {
-            let scale = one / across.sqrt();
-            [-view[1] * scale, view[0] * scale, zero]
-        } else {
-            [one, zero, zero]
-        };
-        let t2 = [
-            view[1] * t1[2] - view[2] * t1[1],
-            view[2] * t1[0] - view[0] * t1[2],
-            view[0] * t1[1] - view[1] * t1[0],
-        ];
-        let (radius, phi) = (u[0].sqrt(), u[1] * lit(2.0 * PI));
-        let (a, b) = (radius * phi.cos(), radius * phi.sin());
-        let s = lit::<R>(0.5) * (one + view[2]);
-        let b = (one - s) * (one - a * a).at_least(zero).sqrt() + s * b;
-        let c = (one - a * a - b * b).at_least(zero).sqrt();
-        let n = |i: usize| a * t1[i] + b * t2[i] + c * view[i];
-        normalize([
-            self.alpha_x * n(0),
-            self.alpha_y * n(1),
-            n(2).at_least(zero),
-        ])
-    }
-
-    /// A light from the cap z > −`bound` z_v of the stretched sphere around a view.
-    #[inline(always)]
-    fn cap_direction(&self, v: Vector<R>, u: [R; 2], bound: R) -> Vector<R> {
-        let one = lit::<R>(1.0);
-        let (x, y) = self.stretched(v);
-        let view = normalize([x, y, v[2]]);
-        let low = bound * view[2];
-        let z = (one - u[1]) * (one + low) - low;
-        let sin = ((one - z) * (one + z)).at_least(lit(0.0)).sqrt();
-        let phi = u[0] * lit(2.0 * PI);
-        let m = add(view, [sin * phi.cos(), sin * phi.sin(), z]);
-        reflect(
-            v,
-            normalize([self.alpha_x * m[0], self.alpha_y * m[1], m[2]]),
-        )
-    }
 }
 
-/// A direction with density cos θ/π.
-fn cosine_direction<R: Real>(u: [R; 2]) -> Vector<R> {
-    let (radius, phi) = (u[0].sqrt(), u[1] * lit(2.0 * PI));
-    [
-        radius * phi.cos(),
-        radius * phi.sin(),
-        (lit::<R>(1.0) - u[0]).at_least(lit(0.0)).sqrt(),
-    ]
+/// D of a surface so smooth that α² is not a number of full precision, where `d` is not finite:
+/// (m/h_z²)²/(π α_x α_y (1 + (h_x/(α_x h_z))² + (h_y/(α_y h_z))²)²).
+#[cold]
+#[inline(never)]
+fn smooth_d<R: Real>(x: R, y: R, z: R, alpha_x: R, alpha_y: R, d: R) -> R {
+    let (p, q) = (x / z, y / z);
+    let over = |p: R, alpha: R| if p == lit(0.0) { p } else { p / alpha };
+    let (s, t) = (over(p, alpha_x), over(q, alpha_y));
+    let spread = lit::<R>(1.0) + s * s + t * t;
+    let m = (lit::<R>(1.0) + p * p + q * q) / spread;
+    let value = (m / alpha_x) * (m / alpha_y) * lit(FRAC_1_PI);
+    if value.is_nan() { d } else { value }
 }
 
 /// V·H = |l + v|/2 and 1 − V·H = |l − v|²/(4 (1 + V·H)), for directions of length 1.
@@ -410,7 +284,20 @@ impl<R: Real> Fresnel<R> {
     /// Reflectance of the facet that mirrors `l` into `v`, directions of length 1.
     #[inline(always)]
     pub fn eval(&self, l: impl Into<Vector<R>>, v: impl Into<Vector<R>>) -> [R; 3] {
-        let (c, rest) = v_dot_h_and_rest(l.into(), v.into());
+        let (l, v) = (l.into(), v.into());
+        match *self {
+            // ∞ − ∞, where nothing else is wrong.
+            Fresnel::Schlick { f0 } if !f0.into_iter().all(R::is_finite) => {
+                let f0 = f0.map(R::bounded);
+                Fresnel::Schlick { f0 }.of_facet(l, v)
+            }
+            _ => self.of_facet(l, v),
+        }
+    }
+
+    #[inline(always)]
+    fn of_facet(&self, l: Vector<R>, v: Vector<R>) -> [R; 3] {
+        let (c, rest) = v_dot_h_and_rest(l, v);
         match *self {
             Fresnel::Perfect => [lit(1.0); 3],
             Fresnel::Schlick { f0 } => {
@@ -450,7 +337,7 @@ impl<R: Real> Specular<R> {
     pub fn eval_cos(&self, l: impl Into<Vector<R>>, v: impl Into<Vector<R>>) -> [R; 3] {
         let (l, v) = (l.into(), v.into());
         let value = self.ggx.eval(l, v) * l[2].at_least(lit(0.0));
-        let [r, g, b] = self.fresnel.eval(l, v).map(|f| f * value);
+        let [r, g, b] = self.fresnel.of_facet(l, v).map(|f| f * value);
         if (r + g + b).is_nan() {
             // ∞ · 0 at the peak or on the horizon of a mirror: nothing leaves there.
             let zero = |(), _, _| lit(0.0);

@@ -8,7 +8,7 @@
 //! `n_dot_l` or `n_dot_v` at or below 0 gives 0, where a formula is meant for the lit side;
 //! other cosines and roughness are brought into their range. Division by `v_dot_h = 0` gives +∞.
 
-use crate::real::{Real, lit};
+use crate::real::{Real, lit, split};
 use crate::smith::{above_horizon, g1_beckmann_rational, sine};
 use crate::term::{L_DOT_V, N_DOT_H, N_DOT_L, N_DOT_V, ROUGHNESS, Term, V_DOT_H, entry};
 
@@ -152,7 +152,9 @@ const GSF_NEUMANN: Term = entry!(
 pub fn gsf_kelemen<R: Real>(n_dot_l: R, n_dot_v: R, v_dot_h: R) -> R {
     above_horizon(n_dot_l, n_dot_v, |l, v| {
         let h = v_dot_h.clamp_unit();
-        (l / h) * (v / h)
+        // The smaller one first: it overflows only where the result does.
+        let (low, high) = if l < v { (l, v) } else { (v, l) };
+        low / h * high / h
     })
 }
 
@@ -174,8 +176,13 @@ const GSF_KELEMEN: Term = entry!(
 #[inline(always)]
 pub fn gsf_modified_kelemen<R: Real>(n_dot_l: R, n_dot_v: R, roughness: R) -> R {
     above_horizon(n_dot_l, n_dot_v, |l, v| {
-        let k = roughness.clamp_unit().squared() * lit(SQRT_2_OVER_PI);
-        (v * k + (lit::<R>(1.0) - k)).squared() * l
+        // 1 − k is down to 0.2, where each rounding error of k would count four times.
+        let (r2, r2_low) = roughness.clamp_unit().two_square();
+        let constant = split::<R>(SQRT_2_OVER_PI);
+        let (k, k_low) = r2.two_prod(constant.0);
+        let k_low = k_low + (r2_low * constant.0 + r2 * constant.1);
+        let (rest, rest_low) = lit::<R>(1.0).two_sum(-k);
+        (v * k + (rest + (rest_low - k_low))).squared() * l
     })
 }
 
@@ -246,7 +253,7 @@ const GSF_WARD: Term = entry!(
 pub fn gsf_kurt<R: Real>(n_dot_l: R, n_dot_v: R, v_dot_h: R, roughness: R) -> R {
     above_horizon(n_dot_l, n_dot_v, |l, v| {
         let product = (l * v).at_least(lit(R::TINY));
-        product / (v_dot_h.clamp_unit() * product.powf(roughness.clamp_unit()))
+        product / product.powf(roughness.clamp_unit()) / v_dot_h.clamp_unit()
     })
 }
 

@@ -2,7 +2,7 @@
 
 use crate::real::{Real, lit, zero_unless_nan};
 use crate::term::{ALPHA, L_DOT_V, N_DOT_L, N_DOT_V, Param, Term, entry};
-use crate::vector::{Vector, add, dot, normalize, reflect};
+use crate::vector::{Vector, add, normalize, reflect};
 
 pub(crate) const TERMS: &[Term] = &[N_DOT_H_FROM, V_DOT_H_FROM, ALPHA_FILTERED];
 
@@ -13,7 +13,7 @@ pub(crate) const TERMS: &[Term] = &[N_DOT_H_FROM, V_DOT_H_FROM, ALPHA_FILTERED];
 /// Above 1 it counts as 1; where L = −V, or neither direction is above the horizon, it is 0.
 #[inline(always)]
 pub fn n_dot_h_from<R: Real>(n_dot_l: R, n_dot_v: R, l_dot_v: R) -> R {
-    let sum = n_dot_l + n_dot_v;
+    let sum = n_dot_l.bounded() + n_dot_v.bounded();
     if sum <= lit(0.0) {
         return zero_unless_nan([n_dot_l, n_dot_v, l_dot_v]);
     }
@@ -135,38 +135,4 @@ impl<R: Real> Rusinkiewicz<R> {
         ];
         (l, reflect(l, [sin_h, lit(0.0), cos_h]))
     }
-}
-
-/// D of GGX from a normal, a light and a view in world space, each of length 1.
-///
-/// sin² of the half vector is |n × (l + v)|², each component a difference of products kept
-/// exactly: even so, half a unit in the last place of n, l or v changes D of a smooth surface
-/// by thousands of units. 0 below the horizon.
-pub fn d_ggx_world<R: Real>(
-    n: impl Into<Vector<R>>,
-    l: impl Into<Vector<R>>,
-    v: impl Into<Vector<R>>,
-    alpha: R,
-) -> R {
-    let (n, h) = (n.into(), add(l.into(), v.into()));
-    let c = dot(n, h);
-    if c < lit(0.0) {
-        return zero_unless_nan([c, alpha]);
-    }
-    let difference = |a: R, b: R, c: R, d: R| {
-        let ((p, p_low), (q, q_low)) = (a.two_prod(b), c.two_prod(d));
-        (p - q) + (p_low - q_low)
-    };
-    let cross = [
-        difference(n[1], h[2], n[2], h[1]),
-        difference(n[2], h[0], n[0], h[2]),
-        difference(n[0], h[1], n[1], h[0]),
-    ];
-    let (s, c2) = (dot(cross, cross), c * c);
-    let t = s + alpha * alpha * c2;
-    if t == lit(0.0) {
-        return lit::<R>(1.0) / t;
-    }
-    let q = alpha * (s + c2) / t;
-    q * q * lit(std::f64::consts::FRAC_1_PI)
 }

@@ -23,7 +23,7 @@ pub(crate) const TERMS: &[Term] = &[
 /// only ∫ D cos is.
 pub fn integral_d_ggx<R: Real>(alpha: R) -> R {
     let one = lit::<R>(1.0);
-    let a = alpha.abs();
+    let a = alpha.abs().bounded();
     if a == lit(0.0) {
         return one;
     }
@@ -165,7 +165,7 @@ impl Rule {
     }
 }
 
-static COARSE: LazyLock<Rule> = LazyLock::new(|| Rule::new(30));
+static COARSE: LazyLock<Rule> = LazyLock::new(|| Rule::new(32));
 static FINE: LazyLock<Rule> = LazyLock::new(|| Rule::new(128));
 
 static AVERAGE: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| gauss_legendre(24));
@@ -183,7 +183,7 @@ pub(crate) fn average_nodes() -> &'static [(f64, f64)] {
 /// disc with centre tan θ and radius sec θ, and N·L is μ (the power of the point in that
 /// disc)/(1 + p² + q²), which does not cancel at its rim.
 fn directional<R: Real>(mu: R, alpha: R, rule: &Rule, visibility: impl Fn(R) -> R) -> R {
-    if mu < lit(0.1) && mu < lit::<R>(1.5) * alpha {
+    if mu < lit(0.1) && mu < lit::<R>(1.22) * alpha {
         directional_grazing(mu, alpha, rule, visibility)
     } else {
         directional_polar(mu, alpha, rule, visibility)
@@ -372,6 +372,7 @@ pub fn share_ratio_above<R: Real>(ratio: R, light_deg: R) -> R {
     }
     // The cosine of half the angle; close to 180° the sine of what is missing keeps its digits.
     let half = lit::<R>(PI / 360.0);
+    let light_deg = light_deg.bounded();
     let c = if light_deg > lit(90.0) {
         ((lit::<R>(180.0) - light_deg) * half).sin()
     } else {

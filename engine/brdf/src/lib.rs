@@ -23,12 +23,14 @@ pub mod gsf;
 pub mod half_vector;
 pub mod integral;
 pub mod real;
+pub mod sampling;
 pub mod smith;
 pub mod term;
 pub mod vector;
 mod vector_terms;
 pub mod walk;
 pub mod whole;
+pub mod world;
 
 pub use albedo_fits::*;
 pub use d::*;
@@ -40,11 +42,13 @@ pub use gsf::*;
 pub use half_vector::*;
 pub use integral::*;
 pub use real::Real;
+pub use sampling::*;
 pub use smith::*;
 pub use term::{Param, Term, term, terms};
 pub use vector::Vector;
 pub use vector_terms::vector_terms;
 pub use whole::*;
+pub use world::*;
 
 pub use glam;
 

@@ -76,10 +76,23 @@ pub trait Real:
         if high < self { high } else { self }
     }
 
-    /// Brought into [0, 1].
+    /// Brought into [0, 1]; a 0 loses its sign, so that no quotient by it is −∞.
     #[inline(always)]
     fn clamp_unit(self) -> Self {
-        self.at_least(Self::of(0.0)).at_most(Self::of(1.0))
+        let zero = Self::of(0.0);
+        if self <= zero {
+            zero
+        } else {
+            self.at_most(Self::of(1.0))
+        }
+    }
+
+    /// Brought into ±[`Real::LARGE`]: an infinite argument counts as a very large one, so that
+    /// its product with 0 is 0.
+    #[inline(always)]
+    fn bounded(self) -> Self {
+        self.at_most(Self::of(Self::LARGE))
+            .at_least(Self::of(-Self::LARGE))
     }
 
     /// self · y + z: fused where that is an instruction, else a product and a sum.
@@ -179,6 +192,13 @@ pub(crate) fn quotient<R: Real>(n: (R, R), d: (R, R)) -> (R, R) {
     let (back, back_low) = q.two_prod(d.0);
     let low = ((n.0 - back) - back_low + n.1 - q * d.1) / d.0;
     (q, if low.is_finite() { low } else { lit(0.0) })
+}
+
+/// A constant as an unevaluated sum.
+#[inline(always)]
+pub(crate) fn split<R: Real>(x: f64) -> (R, R) {
+    let high = lit::<R>(x);
+    (high, lit(x - high.to_f64()))
 }
 
 /// A constant in the precision of the formula around it.

@@ -53,7 +53,7 @@ pub(crate) fn sine<R: Real>(c: R) -> R {
 /// sqrt(c² + α² s²), which is c sqrt(1 + α² tan²θ): no quotient, and no α² − 1.
 #[inline(always)]
 fn projected<R: Real>(c: R, alpha: R) -> R {
-    c.hypot(alpha * sine(c))
+    c.hypot(alpha.bounded() * sine(c))
 }
 
 /// Λ of GGX: (sqrt(1 + α² tan²θ) − 1)/2.
@@ -64,15 +64,16 @@ fn projected<R: Real>(c: R, alpha: R) -> R {
 /// x/(2 (1 + sqrt(1 + x))), and for large x the same divided by the root.
 #[inline(always)]
 pub fn lambda_ggx<R: Real>(n_dot_x: R, alpha: R) -> R {
-    let one = lit::<R>(1.0);
+    let (half, one) = (lit::<R>(0.5), lit::<R>(1.0));
     let c = n_dot_x.at_most(one);
-    let t = (alpha * sine(c)).abs() / c;
+    // Half of α tan θ: the whole could overflow where Λ does not.
+    let t = half * (alpha.bounded() * sine(c)).abs() / c;
     // Both forms as one, and the choice last: a loop without branches works on several points
     // at a time.
-    let steep = t > one;
-    let r = if steep { one / t } else { t };
-    let (above, below) = if steep { (t, r) } else { (t * t, one) };
-    let lambda = lit::<R>(0.5) * above / (below + (one + r * r).sqrt());
+    let steep = t > half;
+    let r = if steep { half / t } else { t + t };
+    let (above, below) = if steep { (t, r) } else { ((t + t) * t, one) };
+    let lambda = above / (below + (one + r * r).sqrt());
     if n_dot_x <= lit(0.0) {
         one / lit(0.0)
     } else {
@@ -163,6 +164,7 @@ pub fn lambda_beckmann<R: Real>(n_dot_x: R, alpha: R) -> R {
         return lit::<R>(1.0) / lit(0.0);
     }
     let c = n_dot_x.at_most(lit(1.0));
+    let alpha = alpha.bounded();
     let t = (alpha * sine(c)).abs();
     let a = if t == lit(0.0) { lit(30.0) } else { c / t };
     // exp(−a²) is below the smallest number.
@@ -260,14 +262,12 @@ pub fn g1_beckmann_rational<R: Real>(n_dot_x: R, alpha: R) -> R {
         return lit(0.0);
     }
     let c = n_dot_x.at_most(lit(1.0));
-    let t = (alpha * sine(c)).abs();
-    if t == lit(0.0) {
+    let alpha = alpha.bounded().abs();
+    let t = alpha * sine(c);
+    if t == lit(0.0) || c / t >= lit(1.6) {
         return lit(1.0);
     }
-    let a = c / t;
-    if a >= lit(1.6) {
-        return lit(1.0);
-    }
+    let a = cot_over_alpha(c, alpha).0;
     a * (lit::<R>(3.535) + lit::<R>(2.181) * a)
         / (lit::<R>(1.0) + a * (lit::<R>(2.276) + lit::<R>(2.577) * a))
 }
@@ -388,8 +388,15 @@ pub fn v_ggx<R: Real>(n_dot_l: R, n_dot_v: R, alpha: R) -> R {
     if n_dot_l < lit(0.0) || n_dot_v < lit(0.0) {
         return zero_unless_nan([n_dot_l, n_dot_v, alpha]);
     }
+    lit::<R>(0.5) / visibility_denominator(n_dot_l, n_dot_v, alpha)
+}
+
+/// 0.5/V, for cosines that are not negative.
+#[inline(always)]
+pub(crate) fn visibility_denominator<R: Real>(n_dot_l: R, n_dot_v: R, alpha: R) -> R {
     let (l, v) = (n_dot_l.at_most(lit(1.0)), n_dot_v.at_most(lit(1.0)));
-    lit::<R>(0.5) / (l * projected(v, alpha) + v * projected(l, alpha))
+    // Without the sign of −0, 1 over which would be −∞.
+    (l * projected(v, alpha) + v * projected(l, alpha)).abs()
 }
 
 const V_GGX: Term = entry!(
@@ -416,7 +423,9 @@ pub fn v_ggx_separable<R: Real>(n_dot_l: R, n_dot_v: R, alpha: R) -> R {
         return zero_unless_nan([n_dot_l, n_dot_v, alpha]);
     }
     let (l, v) = (n_dot_l.at_most(lit(1.0)), n_dot_v.at_most(lit(1.0)));
-    lit::<R>(1.0) / (l + projected(l, alpha)) / (v + projected(v, alpha))
+    // The second factor is at most 1, so that what overflows is the result.
+    let half = lit::<R>(0.5);
+    half / (l + projected(l, alpha)) / (half * (v + projected(v, alpha)))
 }
 
 const V_GGX_SEPARABLE: Term = entry!(
@@ -444,7 +453,7 @@ pub fn v_ggx_hammon<R: Real>(n_dot_l: R, n_dot_v: R, alpha: R) -> R {
     let (l, v) = (n_dot_l.at_most(lit(1.0)), n_dot_v.at_most(lit(1.0)));
     let alpha = alpha.clamp_unit();
     let product = lit::<R>(2.0) * (l * v);
-    lit::<R>(0.5) / (product * (lit::<R>(1.0) - alpha) + alpha * (l + v))
+    lit::<R>(0.5) / (product * (lit::<R>(1.0) - alpha) + alpha * (l + v)).abs()
 }
 
 const V_GGX_HAMMON: Term = entry!(

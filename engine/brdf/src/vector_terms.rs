@@ -1,7 +1,8 @@
 //! The formulas from vectors as data.
 
-use crate::ggx::{Fresnel, Ggx, Sampler, Specular};
+use crate::ggx::{Fresnel, Ggx, Specular};
 use crate::real::Real;
+use crate::sampling::Sampler;
 use crate::term::{ALPHA, F0, Param, Term, entry};
 
 /// The formulas from vectors as data, so that their errors can be measured like those of the
@@ -17,6 +18,8 @@ const VECTOR_TERMS: &[Term] = &[
     VECTOR_F_SCHLICK,
     VECTOR_SPECULAR,
     VECTOR_PDF,
+    D_GGX_WORLD,
+    SPECULAR_GGX_WORLD,
 ];
 
 const fn component(name: &'static str, meaning: &'static str) -> Param {
@@ -121,5 +124,73 @@ const VECTOR_PDF: Term = entry!(
     symbol: "p", latex: "p", cost: 25,
     doc: "density of lights drawn by the visible normals",
     source: "Heitz 2018; Dupuy and Benyoub 2023",
+    wgsl: None
+);
+
+const fn world(name: &'static str, meaning: &'static str) -> Param {
+    Param {
+        name,
+        range: (-1.0, 1.0),
+        unit: "1",
+        meaning,
+    }
+}
+
+const N_X: Param = world("n_x", "normal in the world, first component");
+const N_Y: Param = world("n_y", "normal in the world, second component");
+const N_Z: Param = world("n_z", "normal in the world, third component");
+const L_WORLD: Param = world("l_x", "light in the world, a component");
+const V_WORLD: Param = world("v_x", "view in the world, a component");
+
+/// D of GGX in world space, see [`crate::d_ggx_world`].
+#[allow(clippy::too_many_arguments)]
+fn d_ggx_world<R: Real>(
+    n_x: R,
+    n_y: R,
+    n_z: R,
+    l_x: R,
+    l_y: R,
+    l_z: R,
+    v_x: R,
+    v_y: R,
+    v_z: R,
+    alpha: R,
+) -> R {
+    crate::d_ggx_world([n_x, n_y, n_z], [l_x, l_y, l_z], [v_x, v_y, v_z], alpha)
+}
+
+const D_GGX_WORLD: Term = entry!(
+    d_ggx_world(n_x: N_X, n_y: N_Y, n_z: N_Z, l_x: L_WORLD, l_y: L_WORLD, l_z: L_WORLD, v_x: V_WORLD, v_y: V_WORLD, v_z: V_WORLD, alpha: ALPHA),
+    symbol: "D", latex: "D", cost: 60,
+    doc: "D of GGX from normal, light and view in world space",
+    source: "Walter et al. 2007, eq. 33",
+    wgsl: None
+);
+
+/// D V F cos θ in world space, see [`crate::specular_ggx_world`].
+#[allow(clippy::too_many_arguments)]
+fn specular_ggx_world<R: Real>(
+    n_x: R,
+    n_y: R,
+    n_z: R,
+    l_x: R,
+    l_y: R,
+    l_z: R,
+    v_x: R,
+    v_y: R,
+    v_z: R,
+    alpha: R,
+    f0: R,
+) -> R {
+    let fresnel = Fresnel::Schlick { f0: [f0; 3] };
+    let (n, l, v) = ([n_x, n_y, n_z], [l_x, l_y, l_z], [v_x, v_y, v_z]);
+    crate::specular_ggx_world(n, l, v, alpha, &fresnel)[0]
+}
+
+const SPECULAR_GGX_WORLD: Term = entry!(
+    specular_ggx_world(n_x: N_X, n_y: N_Y, n_z: N_Z, l_x: L_WORLD, l_y: L_WORLD, l_z: L_WORLD, v_x: V_WORLD, v_y: V_WORLD, v_z: V_WORLD, alpha: ALPHA, f0: F0),
+    symbol: "D V F cos θ", latex: r"D V F \cos\theta", cost: 150,
+    doc: "specular BRDF times cosine from normal, light and view in world space",
+    source: "Walter et al. 2007, eq. 20; Heitz 2014, eq. 99",
     wgsl: None
 );

@@ -13,8 +13,9 @@
 //! scattering is ∫ D G₂, with those of the slides neither.
 
 use crate::batch::{Isa, Level, dispatch, ln_unit};
-use crate::ggx::{Ggx, Sampler};
+use crate::ggx::Ggx;
 use crate::real::{Fused, Real, Single, lit};
+use crate::sampling::Sampler;
 use crate::vector::{Vector, add, dot, normalize, reflect, scale};
 use glam::Vec3;
 use std::f64::consts::PI;

@@ -2,7 +2,7 @@
 
 use crate::d::d_ggx;
 use crate::real::{Real, lit, zero_unless_nan};
-use crate::smith::v_ggx;
+use crate::smith::visibility_denominator;
 use crate::term::{N_DOT_H, N_DOT_L, N_DOT_V, ROUGHNESS, Term, entry};
 
 pub(crate) const TERMS: &[Term] = &[SPECULAR_GGX];
@@ -17,14 +17,12 @@ pub fn specular_ggx<R: Real>(n_dot_l: R, n_dot_v: R, n_dot_h: R, roughness: R) -
         .at_most(lit(R::LARGE))
         .at_least(lit(-R::LARGE))
         .squared();
-    let v = v_ggx(n_dot_l, n_dot_v, alpha);
     let d = d_ggx(n_dot_h, alpha);
-    // 0 · ∞ where D is 0 and V on its horizon is not finite: nothing is reflected there.
-    if d == lit(0.0) || v == lit(0.0) {
-        zero_unless_nan([d, v])
-    } else {
-        d * v
+    if n_dot_l < lit(0.0) || n_dot_v < lit(0.0) || d == lit(0.0) {
+        return zero_unless_nan([n_dot_l, n_dot_v, d]);
     }
+    // V overflows on its horizon where D V does not.
+    lit::<R>(0.5) * d / visibility_denominator(n_dot_l, n_dot_v, alpha)
 }
 
 const SPECULAR_GGX: Term = entry!(

@@ -113,6 +113,10 @@ impl Big {
         self.map(|x| Some(x.cos()))
     }
 
+    pub(crate) fn sin(&self) -> Big {
+        self.map(|x| Some(x.sin()))
+    }
+
     /// The angle of a cosine in [−1, 1].
     pub(crate) fn acos(&self) -> Big {
         let inside = self.to_f64().abs() <= 1.0 && !(1.0 - self.abs()).is_negative();

@@ -261,30 +261,6 @@ pub(crate) fn evaluate(name: &str, args: &[Big], bits: usize) -> Big {
             ratio(1.0, 1.0).min(&(sq(a) + kernel)).sqrt()
         }
 
-        // From vectors, which rounding leaves a little longer or shorter than 1: for what
-        // depends on directions only, lengths are divided out.
-        ("vector_d_ggx", [l @ .., a]) => form("d_ggx", &[&half_vector(l).1, a]),
-        ("vector_lambda_ggx", [x, y, z, a]) => {
-            ((1.0 + sq(a) * (sq(x) + sq(y)) / sq(z)).sqrt() - 1.0) / 2.0
-        }
-        ("vector_v_ggx", [x, y, z, vx, vy, vz, a]) => {
-            let sum = form("vector_lambda_ggx", &[x, y, z, a])
-                + form("vector_lambda_ggx", &[vx, vy, vz, a]);
-            1.0 / (1.0 + sum) / (4.0 * z * vz)
-        }
-        ("vector_f_schlick", [lv @ .., f0]) => form("f_schlick", &[f0, &half_vector(lv).0]),
-        ("vector_specular", [x, y, z, vx, vy, vz, a, f0]) => {
-            form("vector_d_ggx", &[x, y, z, vx, vy, vz, a])
-                * form("vector_v_ggx", &[x, y, z, vx, vy, vz, a])
-                * form("vector_f_schlick", &[x, y, z, vx, vy, vz, f0])
-                * z
-        }
-        ("vector_pdf", [x, y, z, vx, vy, vz, a]) => {
-            // G1 D/(4 N·V).
-            let g1 = 1.0 / (1.0 + form("vector_lambda_ggx", &[vx, vy, vz, a]));
-            form("vector_d_ggx", &[x, y, z, vx, vy, vz, a]) * g1 / (4.0 * vz)
-        }
-
         ("integral_d_ggx", [a]) => {
             let s2 = 1.0 - sq(a);
             let s = s2.abs().sqrt();
@@ -303,29 +279,11 @@ pub(crate) fn evaluate(name: &str, args: &[Big], bits: usize) -> Big {
         }
         ("n_dot_h_from", [l, v, lv]) => ratio(1.0, 1.0).min(&((l + v) / (2.0 + 2.0 * lv).sqrt())),
         ("v_dot_h_from", [_, _, lv]) => ((1.0 + lv) / 2.0).sqrt(),
-        _ => Big::none(),
+        _ => crate::directions::evaluate_vectors(name, args, bits),
     }
 }
 
-/// Of a light and a view: V·H and N·H.
-fn half_vector(lv: &[Big]) -> (Big, Big) {
-    let [x, y, z, vx, vy, vz] = lv else {
-        return (Big::none(), Big::none());
-    };
-    let length = |x: &Big, y: &Big, z: &Big| (sq(x) + sq(y) + sq(z)).sqrt();
-    let h = (x + vx, y + vy, z + vz);
-    let n_dot_h = &h.2 / length(&h.0, &h.1, &h.2);
-    // V·H is half the length of the sum of the directions, so these get length 1 first.
-    let (l, v) = (length(x, y, z), length(vx, vy, vz));
-    let v_dot_h = length(
-        &(x / &l + vx / &v),
-        &(y / &l + vy / &v),
-        &(z / &l + vz / &v),
-    ) / 2.0;
-    (v_dot_h, n_dot_h)
-}
-
-fn sq(x: &Big) -> Big {
+pub(crate) fn sq(x: &Big) -> Big {
     x * x
 }
 

@@ -7,6 +7,7 @@
 
 pub mod bench;
 mod big;
+mod directions;
 mod forms;
 pub mod naive;
 pub mod stress;
@@ -34,7 +35,7 @@ pub fn value(name: &str, args: &[f64]) -> Option<Big> {
     }
 }
 
-fn at_precision(name: &str, args: &[f64], bits: usize) -> Option<Big> {
+pub(crate) fn at_precision(name: &str, args: &[f64], bits: usize) -> Option<Big> {
     let args: Vec<Big> = args.iter().map(|&x| Big::new(x, bits)).collect();
     forms::evaluate(name, &args, bits).finite()
 }

@@ -22,7 +22,7 @@ pub(super) fn rows(term: &'static Term, effort: Effort) -> Vec<Row> {
             // Rounded, so that all variants get the same arguments.
             let argument = |param: &brdf::Param| f64::from(numbers.between(param.range) as f32);
             let args: Vec<f64> = term.params.iter().map(argument).collect();
-            if possible(term, Precision::Single, &args) {
+            if possible(term.params, Precision::Single, &args) {
                 return args;
             }
         }

@@ -1,0 +1,134 @@
+//! GGX from vectors in world space, for callers without a tangent frame.
+//!
+//! World-space vectors are ill-conditioned: half a unit in the last place of n, l or v changes
+//! D of a smooth surface by thousands of units. What is here is no worse than that; where the
+//! frame is known, [`crate::Ggx`] is better. All vectors are expected to have length 1.
+
+use crate::ggx::Fresnel;
+use crate::real::{Real, lit, zero_unless_nan};
+use crate::smith::visibility_denominator;
+use crate::vector::{Vector, dot, tamed};
+use std::f64::consts::FRAC_1_PI;
+
+/// D of GGX from a normal, a light and a view in world space: D = (α m/(π^½ (s + α² c²)))²,
+/// c = n·(l + v), s = |n × (l + v)|², m = s + c².
+///
+/// Walter et al. 2007, eq. 33. In 1/sr; 0 below the horizon. Each component of the cross
+/// product is a difference of products kept exactly.
+pub fn d_ggx_world<R: Real>(
+    n: impl Into<Vector<R>>,
+    l: impl Into<Vector<R>>,
+    v: impl Into<Vector<R>>,
+    alpha: R,
+) -> R {
+    let (n, l, v) = (n.into(), l.into(), v.into());
+    rescued(d_of(n, l, v, alpha), [n, l, v], alpha, |n, l, v| {
+        d_of(n, l, v, alpha.abs().at_least(lit(1e-9)).bounded())
+    })
+}
+
+/// What `again` gives for the directions of the vectors, where `value` is NaN and no argument is.
+#[inline(always)]
+fn rescued<R: Real>(
+    value: R,
+    vectors: [Vector<R>; 3],
+    alpha: R,
+    again: impl FnOnce(Vector<R>, Vector<R>, Vector<R>) -> R,
+) -> R {
+    if !value.is_nan() || alpha.is_nan() || vectors.as_flattened().iter().any(|x| x.is_nan()) {
+        return value;
+    }
+    let [n, l, v] = vectors.map(tamed);
+    let value = again(n, l, v);
+    if value.is_nan() { lit(0.0) } else { value }
+}
+
+fn d_of<R: Real>(n: Vector<R>, l: Vector<R>, v: Vector<R>, alpha: R) -> R {
+    let h = [0, 1, 2].map(|i| l[i].two_sum(v[i]));
+    let d = d_of_half(n, h, alpha);
+    let size = |(high, _): (R, R)| high.abs();
+    let largest = size(h[0]).at_least(size(h[1])).at_least(size(h[2]));
+    if d.is_finite() || largest >= lit(1e-6) {
+        return d;
+    }
+    if largest == lit(0.0) {
+        // l = −v: there is no half vector.
+        return lit(0.0);
+    }
+    d_of_half(
+        n,
+        h.map(|(high, low)| (high / largest, low / largest)),
+        alpha,
+    )
+}
+
+fn d_of_half<R: Real>(n: Vector<R>, h: [(R, R); 3], alpha: R) -> R {
+    let c = dot_sum(n, h);
+    if c < lit(0.0) {
+        return zero_unless_nan([c, alpha]);
+    }
+    let difference = |i: usize, j: usize| {
+        let ((p, p_low), (q, q_low)) = (n[i].two_prod(h[j].0), n[j].two_prod(h[i].0));
+        (p - q) + (p_low - q_low + (n[i] * h[j].1 - n[j] * h[i].1))
+    };
+    let cross = [difference(1, 2), difference(2, 0), difference(0, 1)];
+    let (s, c2) = (dot(cross, cross), c * c);
+    let t = s + alpha * alpha * c2;
+    if t >= lit(R::TINY) || t.is_nan() {
+        let q = alpha * (s + c2) / t;
+        return q * q * lit(FRAC_1_PI);
+    }
+    // The squares vanish before their ratio does.
+    let across = cross[0].hypot(cross[1]).hypot(cross[2]);
+    let along = across.hypot(alpha * c);
+    if along == lit(0.0) {
+        return lit::<R>(1.0) / along;
+    }
+    let q = (alpha * c / along) * (c / along);
+    q * q * lit(FRAC_1_PI)
+}
+
+/// BRDF times N·L of a GGX surface of some material from vectors in world space, D V F cos θ,
+/// in 1/sr: [`d_ggx_world`], [`crate::v_ggx`] and [`Fresnel::eval`].
+///
+/// Walter et al. 2007, eq. 20; Heitz 2014, eq. 99. 0 where the light or the view is not above
+/// the horizon.
+pub fn specular_ggx_world<R: Real>(
+    n: impl Into<Vector<R>>,
+    l: impl Into<Vector<R>>,
+    v: impl Into<Vector<R>>,
+    alpha: R,
+    fresnel: &Fresnel<R>,
+) -> [R; 3] {
+    let (n, l, v) = (n.into(), l.into(), v.into());
+    let value = eval_cos_of(n, l, v, alpha);
+    let value = rescued(value, [n, l, v], alpha, |n, l, v| {
+        eval_cos_of(n, l, v, alpha.abs().at_least(lit(1e-9)).bounded())
+    });
+    fresnel
+        .eval(l, v)
+        .map(|f| rescued(f * value, [n, l, v], alpha, |_, _, _| lit(0.0)))
+}
+
+fn eval_cos_of<R: Real>(n: Vector<R>, l: Vector<R>, v: Vector<R>, alpha: R) -> R {
+    let exact = |v: Vector<R>| dot_sum(n, v.map(|x| (x, lit(0.0))));
+    let (n_dot_l, n_dot_v) = (exact(l), exact(v));
+    if n_dot_l <= lit(0.0) || n_dot_v <= lit(0.0) {
+        return zero_unless_nan([n_dot_l, n_dot_v, alpha]);
+    }
+    // D V N·L; on the horizon V alone overflows.
+    let shared = visibility_denominator(n_dot_l, n_dot_v, alpha);
+    lit::<R>(0.5) * d_of(n, l, v, alpha) * (n_dot_l / shared)
+}
+
+/// n · h of a sum kept with its rounding errors: where it almost vanishes its digits are there.
+#[inline(always)]
+fn dot_sum<R: Real>(n: Vector<R>, h: [(R, R); 3]) -> R {
+    let [x, y, z] = [0, 1, 2].map(|i| {
+        let (p, p_low) = n[i].two_prod(h[i].0);
+        (p, p_low + n[i] * h[i].1)
+    });
+    let (sum, low) = x.0.two_sum(y.0);
+    let (sum, low2) = sum.two_sum(z.0);
+    sum + ((low + low2) + (x.1 + y.1 + z.1))
+}
