@@ -195,7 +195,8 @@ fn smooth_d<R: Real>(x: R, y: R, z: R, alpha_x: R, alpha_y: R, d: R) -> R {
 pub fn v_dot_h_and_rest<R: Real>(l: impl Into<Vector<R>>, v: impl Into<Vector<R>>) -> (R, R) {
     let (l, v) = (l.into(), v.into());
     let (c, rest) = half_angle(l, v);
-    if c <= lit(2.0) {
+    // Of directions the sum is 1.
+    if c + rest <= lit(2.0) {
         (c, rest)
     } else {
         half_angle_of_directions(l[0], l[1], l[2], v[0], v[1], v[2])

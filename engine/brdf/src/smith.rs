@@ -52,7 +52,7 @@ pub(crate) fn sine<R: Real>(c: R) -> R {
 
 /// sqrt(c² + α² s²), which is c sqrt(1 + α² tan²θ): no quotient, and no α² − 1.
 #[inline(always)]
-fn projected<R: Real>(c: R, alpha: R) -> R {
+pub(crate) fn projected<R: Real>(c: R, alpha: R) -> R {
     c.hypot(alpha.bounded() * sine(c))
 }
 

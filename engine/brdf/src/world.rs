@@ -6,7 +6,7 @@
 
 use crate::ggx::Fresnel;
 use crate::real::{Real, lit, zero_unless_nan};
-use crate::smith::visibility_denominator;
+use crate::smith::projected;
 use crate::vector::{Vector, dot, tamed};
 use std::f64::consts::FRAC_1_PI;
 
@@ -116,9 +116,19 @@ fn eval_cos_of<R: Real>(n: Vector<R>, l: Vector<R>, v: Vector<R>, alpha: R) -> R
     if n_dot_l <= lit(0.0) || n_dot_v <= lit(0.0) {
         return zero_unless_nan([n_dot_l, n_dot_v, alpha]);
     }
-    // D V N·L; on the horizon V alone overflows.
-    let shared = visibility_denominator(n_dot_l, n_dot_v, alpha);
-    lit::<R>(0.5) * d_of(n, l, v, alpha) * (n_dot_l / shared)
+    // V N·L; on the horizon V alone overflows, and its denominator vanishes.
+    let cut = |c: R| c.at_most(lit(1.0));
+    let (l_length, v_length) = (
+        projected(cut(n_dot_l), alpha),
+        projected(cut(n_dot_v), alpha),
+    );
+    let visible = if n_dot_v < n_dot_l {
+        lit::<R>(0.5) / (v_length + n_dot_v / n_dot_l * l_length)
+    } else {
+        let ratio = n_dot_l / n_dot_v;
+        lit::<R>(0.5) * ratio / (ratio * v_length + l_length)
+    };
+    d_of(n, l, v, alpha) * visible
 }
 
 /// n · h of a sum kept with its rounding errors: where it almost vanishes its digits are there.

@@ -13,9 +13,11 @@ pub struct Subject {
     /// Arguments in order.
     pub params: Vec<Param>,
     single: Single,
-    double: fn(&[f64]) -> f64,
+    double: Double,
     against: Against,
 }
+
+type Double = fn(&[f64]) -> f64;
 
 #[derive(Debug, Clone, Copy)]
 enum Single {
@@ -238,7 +240,7 @@ macro_rules! sample {
                     ggx.sample([x, y, z], [u0, u1], Sampler::$sampler).$part
                 }
                 _ => f64::NAN,
-            }) as fn(&[f64]) -> f64,
+            }) as Double,
         )
     };
 }
@@ -265,7 +267,7 @@ macro_rules! direction {
                         .l,
                 ),
                 _ => f64::NAN,
-            }) as fn(&[f64]) -> f64,
+            }) as Double,
         )
     };
 }
@@ -313,7 +315,7 @@ fn samplers() -> Vec<Subject> {
             Drawn("vector_weight_bounded", BoundedCap),
         ),
     ];
-    let subject = |(name, (single, double), against): (_, (_, fn(&[f64]) -> f64), _)| Subject {
+    let subject = |(name, (single, double), against): (_, (_, Double), _)| Subject {
         name,
         params: sampler_params(),
         single,
