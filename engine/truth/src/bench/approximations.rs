@@ -174,7 +174,7 @@ fn drawn(term: &Term, numbers: &mut Numbers) -> Vec<f64> {
     loop {
         let argument = |p: &brdf::Param| f64::from(numbers.between(p.range) as f32);
         let args: Vec<f64> = term.params.iter().map(argument).collect();
-        if possible(term, Precision::Single, &args) {
+        if possible(term.params, Precision::Single, &args) {
             return args;
         }
     }

@@ -202,7 +202,18 @@ pub fn error(term: &Term, precision: Precision, args: &[f64]) -> f64 {
         }
         Precision::Double => (term.f64)(args),
     };
-    distance(&truth, result, scale(term.name, args), precision)
+    error_against(&truth, term, precision, args, result)
+}
+
+/// The same of a result that is there already, against a truth that is.
+pub(crate) fn error_against(
+    truth: &Big,
+    term: &Term,
+    precision: Precision,
+    args: &[f64],
+    result: f64,
+) -> f64 {
+    distance(truth, result, scale(term.name, args), precision)
 }
 
 fn exact_error(subject: &Subject, precision: Precision, args: &[f64]) -> f64 {
