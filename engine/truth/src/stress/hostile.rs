@@ -132,11 +132,14 @@ fn fault(subject: &Subject, args: &[f64], result: f64) -> Option<Fault> {
 }
 
 /// Whether the model is nowhere negative. The full Oren-Nayar is at a few grazing points,
-/// Lazányi's correction where its `a` is too large, and a component may point anywhere.
+/// Lazányi's correction where its `a` is too large, fits of an albedo are near 0, and a
+/// component may point anywhere.
 fn is_positive(name: &str) -> bool {
     !matches!(
         name,
         "diffuse_oren_nayar_full"
+            | "albedo_ggx_karis"
+            | "albedo_ggx_materialx"
             | "f_lazanyi"
             | "sample_hemisphere"
             | "sample_cap"

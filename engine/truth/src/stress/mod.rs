@@ -97,6 +97,8 @@ pub fn bound(name: &str) -> f64 {
     match name {
         // The fifth power of 1 − V·H, and the product of three functions.
         "vector_f_schlick" | "vector_specular" | "specular_ggx_world" => 25.0,
+        // Fits that are themselves within a hundredth.
+        "albedo_ggx_karis" | "albedo_ggx_materialx" => 84.0,
         // D V with roughness² rounded, on which D depends by the fourth power of it.
         "specular_ggx" => 16.0,
         // Measured on the scale of a term, of which several that are as large cancel.
@@ -118,6 +120,8 @@ fn scale(name: &str, args: &[f64]) -> f64 {
         ("diffuse_oren_nayar_full", [.., albedo]) => albedo / 6.0,
         ("f_lazanyi", [f0, ..]) => 0.5 * f0,
         ("sample_hemisphere" | "sample_cap" | "sample_bounded", _) => 1.0,
+        // Fits of an albedo, which cancel where it is small and go through 0.
+        ("albedo_ggx_karis" | "albedo_ggx_materialx", _) => 1.0,
         // The half vector is known as well as the directions, over its length.
         ("rusinkiewicz_and_back", &[x, y, z, vx, vy, vz]) => {
             let sum = [x + vx, y + vy, z + vz];
