@@ -88,21 +88,22 @@ impl<R: Real> Ggx<R> {
         }
         // t times α_x α_y, without quotients where the widths are the same.
         let product = self.alpha_x * self.alpha_y;
-        let (xy, xy_low) = x.two_sum(y);
-        let (across, across_low) = if self.alpha_x == self.alpha_y {
-            (xy, xy_low)
+        let xy = x + y;
+        let across = if self.alpha_x == self.alpha_y {
+            xy
         } else {
             let ratio = self.alpha_y / self.alpha_x;
-            (x * ratio + y / ratio, lit(0.0))
+            x * ratio + y / ratio
         };
         let (m, m_low) = xy.two_sum(z);
         if m == lit(0.0) {
             return m;
         }
-        // The quotient counts twice, so that the sums keep their rounding errors.
+        // The quotient counts twice, so that its sums keep their rounding errors.
         let (t, t_low) = across.two_sum(product * z);
-        let q = m / t;
-        let low = ((m_low + xy_low) - q * (t_low + across_low)) / t;
+        // Two quotients that do not wait for each other.
+        let (q, over_t) = (m / t, lit::<R>(1.0) / t);
+        let low = (m_low - q * t_low) * over_t;
         let q = if low.is_finite() { q + low } else { q };
         // One by one: q² overflows where D does not.
         let d = product * q * q * lit(FRAC_1_PI);

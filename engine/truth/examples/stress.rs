@@ -1,10 +1,14 @@
-//! Prints the worst points of every term, and fails past the bounds: `--quick` for a short run.
+//! Prints the worst points of every term, and fails past the bounds: `--quick` for a short run, names
+//! for some of them only.
 
 use std::process::ExitCode;
 use truth::stress::{Effort, Precision, search, subjects};
 
 fn main() -> ExitCode {
-    let quick = std::env::args().any(|arg| arg == "--quick");
+    let args: Vec<String> = std::env::args().skip(1).collect();
+    let quick = args.iter().any(|arg| arg == "--quick");
+    let names: Vec<&String> = args.iter().filter(|arg| *arg != "--quick").collect();
+    let wanted = |name: &str| names.is_empty() || names.iter().any(|wanted| *wanted == name);
     let mut ok = true;
     for precision in [Precision::Single, Precision::Double] {
         let effort = if quick {
@@ -13,6 +17,9 @@ fn main() -> ExitCode {
             Effort::thorough(precision)
         };
         for subject in subjects().iter().filter(|subject| subject.has(precision)) {
+            if !wanted(subject.name) {
+                continue;
+            }
             let finding = search(subject, precision, effort, 1);
             ok &= finding.ok();
             println!(
