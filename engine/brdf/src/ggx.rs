@@ -76,13 +76,24 @@ impl<R: Real> Ggx<R> {
 
     #[inline(always)]
     pub(crate) fn d_of_sum(&self, l: Vector<R>, v: Vector<R>) -> R {
-        let (x, y, z) = (l[0].two_sum(v[0]), l[1].two_sum(v[1]), l[2].two_sum(v[2]));
-        self.d_squares([x.0, y.0, z.0], [square(x), square(y), square(z)])
+        let (h, squares) = half_squared(l, v);
+        self.d_squares(h, squares)
     }
 
     /// D of a half vector with its squared components.
     #[inline(always)]
-    fn d_squares(&self, h: Vector<R>, [x, y, z]: Vector<R>) -> R {
+    fn d_squares(&self, h: Vector<R>, squares: Vector<R>) -> R {
+        let d = self.d_unless_smooth(h, squares);
+        if d.is_finite() {
+            d
+        } else {
+            smooth_d(h[0], h[1], h[2], self.alpha_x, self.alpha_y, d)
+        }
+    }
+
+    /// The same, but not finite where [`smooth_d`] is needed.
+    #[inline(always)]
+    fn d_unless_smooth(&self, h: Vector<R>, [x, y, z]: Vector<R>) -> R {
         if h[2] < lit(0.0) {
             return zero_unless_nan(h);
         }
@@ -106,12 +117,7 @@ impl<R: Real> Ggx<R> {
         let low = (m_low - q * t_low) * over_t;
         let q = if low.is_finite() { q + low } else { q };
         // One by one: q² overflows where D does not.
-        let d = product * q * q * lit(FRAC_1_PI);
-        if d.is_finite() {
-            d
-        } else {
-            smooth_d(h[0], h[1], h[2], self.alpha_x, self.alpha_y, d)
-        }
+        product * q * q * lit(FRAC_1_PI)
     }
 
     /// Λ of a direction, see [`crate::lambda_ggx`]; +∞ at and below the horizon.
@@ -165,12 +171,54 @@ impl<R: Real> Ggx<R> {
     #[inline(always)]
     pub fn eval(&self, l: impl Into<Vector<R>>, v: impl Into<Vector<R>>) -> R {
         let (l, v) = (l.into(), v.into());
-        let value = self.d_of_sum(l, v) * self.visibility_of(l, v);
-        rescued(value, (l, v), *self, |ggx, l, v| {
-            let ggx = ggx.tamed();
-            ggx.d_of_sum(l, v) * ggx.visibility_of(l, v)
-        })
+        let (h, squares) = half_squared(l, v);
+        let value = self.d_unless_smooth(h, squares) * self.visibility_of(l, v);
+        if value.is_finite() {
+            value
+        } else {
+            eval_again(
+                self.alpha_x,
+                self.alpha_y,
+                l[0],
+                l[1],
+                l[2],
+                v[0],
+                v[1],
+                v[2],
+            )
+        }
     }
+}
+
+/// [`Ggx::eval`] where that needs more than the formula. It takes numbers for the reason that
+/// [`rescued`] does.
+#[cold]
+#[inline(never)]
+#[allow(clippy::too_many_arguments)]
+fn eval_again<R: Real>(
+    alpha_x: R,
+    alpha_y: R,
+    l_x: R,
+    l_y: R,
+    l_z: R,
+    v_x: R,
+    v_y: R,
+    v_z: R,
+) -> R {
+    let (ggx, l, v) = (Ggx { alpha_x, alpha_y }, [l_x, l_y, l_z], [v_x, v_y, v_z]);
+    let value = ggx.d_of_sum(l, v) * ggx.visibility_of(l, v);
+    rescued(value, (l, v), ggx, |ggx, l, v| {
+        let ggx = ggx.tamed();
+        ggx.d_of_sum(l, v) * ggx.visibility_of(l, v)
+    })
+}
+
+/// The sum of two directions, and the squares of its components with their sums' rounding
+/// errors.
+#[inline(always)]
+fn half_squared<R: Real>(l: Vector<R>, v: Vector<R>) -> (Vector<R>, Vector<R>) {
+    let (x, y, z) = (l[0].two_sum(v[0]), l[1].two_sum(v[1]), l[2].two_sum(v[2]));
+    ([x.0, y.0, z.0], [square(x), square(y), square(z)])
 }
 
 /// D of a surface so smooth that α² is not a number of full precision, where `d` is not finite:

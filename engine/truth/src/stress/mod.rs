@@ -103,7 +103,7 @@ pub fn bound(name: &str) -> f64 {
         "specular_ggx" => 16.0,
         // Measured on the scale of a term, of which several that are as large cancel.
         "diffuse_oren_nayar_full" => 20.0,
-        // A relative error of 1e-5 whatever the leading digits.
+        // 1e-5, see [`scale`].
         "albedo_ggx" | "albedo_ggx_separable" => 84.0,
         _ => 12.0,
     }
@@ -120,7 +120,8 @@ fn scale(name: &str, args: &[f64]) -> f64 {
         ("diffuse_oren_nayar_full", [.., albedo]) => albedo / 6.0,
         ("f_lazanyi", [f0, ..]) => 0.5 * f0,
         ("sample_hemisphere" | "sample_cap" | "sample_bounded", _) => 1.0,
-        // Fits of an albedo, which cancel where it is small and go through 0.
+        // A share of 1; fits of it cancel where it is small and go through 0.
+        ("albedo_ggx" | "albedo_ggx_separable", _) => 1.0,
         ("albedo_ggx_karis" | "albedo_ggx_materialx", _) => 1.0,
         // The half vector is known as well as the directions, over its length.
         ("rusinkiewicz_and_back", &[x, y, z, vx, vy, vz]) => {
