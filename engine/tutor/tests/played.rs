@@ -3,8 +3,11 @@
 use std::path::Path;
 use std::sync::Arc;
 use tutor::Lesson;
+use tutor::exercise::look::{Sight, Spot};
+use tutor::exercise::shader::{Job, Ran};
 use tutor::exercise::{Truth, draw};
 use tutor::judge::Verdict;
+use tutor::lesson::{Shows, Task};
 use tutor::prose::Block;
 use tutor::session::{Effect, Event, Grade, Msg, Outcome, Session, Start};
 use tutor::view::{Input, View};
@@ -57,6 +60,12 @@ fn right_answer(lesson: &Lesson, session: &Session) -> Msg {
             _ => None,
         });
     let (item, step) = hint.expect("an exercise gives hints");
+    let exercise = lesson.exercise(&item).expect("the exercise is there");
+    match &exercise.task {
+        Task::Shader(task) => return Msg::Answer(task.solution.text.clone()),
+        Task::Look(_) => return Msg::Answer("0 0".to_owned()),
+        _ => {}
+    }
     // An answer that is no number says the seed, and costs nothing either.
     let seed = session
         .clone()
@@ -66,7 +75,6 @@ fn right_answer(lesson: &Lesson, session: &Session) -> Msg {
             Effect::Save(Event::Attempt { seed, .. }) => Some(seed),
             _ => None,
         });
-    let exercise = lesson.exercise(&item).expect("the exercise is there");
     let drawn = draw(lesson, exercise, seed.expect("attempts keep the seed")).expect("has numbers");
     let text = match (&drawn.truth, drawn.steps.iter().find(|it| it.name == step)) {
         (_, Some(step)) => step.truth.to_string(),
@@ -78,6 +86,50 @@ fn right_answer(lesson: &Lesson, session: &Session) -> Msg {
         }
     };
     Msg::Answer(text)
+}
+
+/// What the right function computes at the job's points.
+fn computed(lesson: &Lesson, job: &Job) -> Ran {
+    let task = lesson.exercises.iter().find_map(|it| match &it.task {
+        Task::Shader(task) if task.function.text == job.function => Some(task),
+        _ => None,
+    });
+    let right = &task.expect("the shader of the job").is.expr;
+    let value = |point: &Vec<f32>| {
+        let inputs = job.params.iter().cloned();
+        let inputs = inputs.zip(point.iter().map(|value| f64::from(*value)));
+        lesson
+            .library
+            .eval(right, &inputs.collect())
+            .expect("a value") as f32
+    };
+    Ran::Values(job.points.iter().map(value).collect())
+}
+
+/// A place than which there is no better one for what is asked of a picture.
+fn best(lesson: &Lesson, picture: &str) -> Sight {
+    let shows = lesson.exercises.iter().find_map(|it| match &it.task {
+        Task::Look(task) if task.picture.text == picture => Some(task.shows),
+        _ => None,
+    });
+    let stops: f64 = if shows == Some(Shows::Darker) {
+        -1.0
+    } else {
+        1.0
+    };
+    let spot = Spot {
+        x: 0.0,
+        y: 0.0,
+        n_dot_l: 0.5,
+        n_dot_v: 0.5,
+        ratio: stops.exp2(),
+        stops,
+    };
+    Sight {
+        here: Some(spot),
+        brightest: (stops > 0.0).then_some(spot),
+        darkest: (stops < 0.0).then_some(spot),
+    }
 }
 
 /// Plays to the result; `missing` first answers to questions say nothing.
@@ -103,9 +155,17 @@ fn play(lesson: &Arc<Lesson>, seed: u64, mut missing: usize) -> (Outcome, View, 
             },
             _ => right_answer(lesson, &session),
         };
-        for effect in session.update(msg) {
-            if let Effect::Save(event) = effect {
-                log.push(event);
+        let mut effects = session.update(msg);
+        while let Some(effect) = (!effects.is_empty()).then(|| effects.remove(0)) {
+            match effect {
+                Effect::Save(event) => log.push(event),
+                Effect::Run(job) => {
+                    effects.extend(session.update(Msg::Ran(computed(lesson, &job))))
+                }
+                Effect::Look { picture, .. } => {
+                    effects.extend(session.update(Msg::Looked(best(lesson, &picture))));
+                }
+                _ => {}
             }
         }
     }
