@@ -52,6 +52,8 @@ pub enum Command {
     Regrade(Regrade),
     /// Check everything a lesson file can get wrong
     Check(Check),
+    /// Turn roughness, light, F0 and exposure of a picture with the arrow keys
+    Play(Play),
     /// Draw fingerprints and plots to files
     Render(Render),
     /// Measure run time against error, for every term and every way to compute it
@@ -78,6 +80,36 @@ pub struct Learn {
     /// Seed of the exercise numbers of a new session (else taken from the clock)
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
+}
+
+#[derive(Clone, Debug, Args)]
+pub struct Play {
+    /// Id or number of the lesson (`lobe list` names them)
+    pub lesson: String,
+    /// Id of the picture (else the lesson's first)
+    #[arg(value_name = "FINGERPRINT")]
+    pub picture: Option<String>,
+    /// Roughness to begin with, 0.02 to 1
+    #[arg(long, value_name = "R", value_parser = within::<2, 100>)]
+    pub roughness: Option<f64>,
+    /// Angle between main light and eye in degrees, 0 to 175
+    #[arg(long, value_name = "DEG", value_parser = within::<0, 17500>)]
+    pub light: Option<f64>,
+    /// Reflectance at normal incidence, 0 to 1
+    #[arg(long, value_name = "F0", value_parser = within::<0, 100>)]
+    pub f0: Option<f64>,
+    /// No screen: the profile along the middle, in numbers
+    #[arg(long)]
+    pub plain: bool,
+}
+
+/// A number between two, given in hundredths.
+fn within<const LEAST: u32, const MOST: u32>(text: &str) -> Result<f64, String> {
+    let (least, most) = (f64::from(LEAST) / 100.0, f64::from(MOST) / 100.0);
+    match text.parse::<f64>() {
+        Ok(value) if (least..=most).contains(&value) => Ok(value),
+        _ => Err(format!("a number from {least} to {most} is wanted")),
+    }
 }
 
 #[derive(Clone, Copy, Debug, Default, Args)]

@@ -213,8 +213,35 @@ pub fn places_table(lesson: &Lesson, id: &str) -> Option<TableView> {
 
 /// What the picture shows along the equator of the sphere, for those who do not see it.
 pub fn profile_table(lesson: &Lesson, id: &str) -> Option<TableView> {
-    let points = renders::profile(&fingerprint(lesson, id)?, PROFILE_ROWS);
-    table_of(&points, "buggy")
+    profile_of(&fingerprint(lesson, id)?, PROFILE_ROWS)
+}
+
+/// The same of any scene.
+pub fn profile_of(fingerprint: &Fingerprint<'_>, rows: usize) -> Option<TableView> {
+    table_of(&renders::profile(fingerprint, rows), "buggy")
+}
+
+/// The figures that say whether the bug shows, as lines: name and value.
+pub fn figures(seen: &Visibility) -> Vec<(&'static str, String)> {
+    let number = |value: f64| match value.is_nan() {
+        true => "–".to_owned(),
+        false => text::short(value),
+    };
+    let (wrong, right) = seen.rim_over_highlight;
+    vec![
+        (
+            "highlight, buggy / correct",
+            format!("{}×", number(seen.ratio_at_highlight)),
+        ),
+        (
+            "lit area that turns brighter",
+            format!("{} %", number(100.0 * seen.lit_above_one)),
+        ),
+        (
+            "rim / highlight",
+            format!("correct {}, buggy {}", number(right), number(wrong)),
+        ),
+    ]
 }
 
 /// Rows of a profile that is read.

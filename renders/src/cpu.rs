@@ -5,7 +5,7 @@ use crate::own::Own;
 use crate::plan::{Plan, inputs, settled};
 use crate::sample::{Input, Samples};
 use crate::shade::Values;
-use crate::{Fingerprint, Precision};
+use crate::{Fingerprint, Precision, Scene};
 use formula::{Column, Expr, Program, Scratch};
 use std::cell::RefCell;
 
@@ -22,7 +22,9 @@ pub(crate) struct Cpu {
     program: Program,
     /// The second value is the wrong one over the right one.
     second_is_ratio: bool,
+    /// The scene's constants, and what they are called.
     constants: Vec<f64>,
+    names: Vec<String>,
     precision: Precision,
     /// What stands for the wrong formula, and where its parameters stand among the inputs.
     own: Option<(Own, Vec<usize>)>,
@@ -64,12 +66,28 @@ impl Cpu {
             })?,
             second_is_ratio: plan.ratio.is_some(),
             constants: constants.iter().map(|(_, value)| *value).collect(),
+            names: constants.into_iter().map(|(name, _)| name).collect(),
             precision: match own {
                 None => precision,
                 Some(_) => Precision::F64,
             },
             own: own.transpose()?,
         })
+    }
+
+    /// Takes the constants of another scene, where they are the same by name. Only for a plan that
+    /// folds nothing: what was folded holds the first scene's values.
+    pub fn take_over(&mut self, scene: &Scene) -> Result<(), Error> {
+        let constants = scene.constants();
+        if !constants.iter().map(|(name, _)| name).eq(&self.names) {
+            return Err(Error::Scene(
+                "its givens are not those that the formulas were prepared for".to_owned(),
+            ));
+        }
+        self.constants.clear();
+        self.constants
+            .extend(constants.into_iter().map(|(_, value)| value));
+        Ok(())
     }
 
     pub fn evaluate(&self, samples: &Samples) -> Values {

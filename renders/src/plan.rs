@@ -69,6 +69,16 @@ impl Plan {
         plan
     }
 
+    /// What the formulas alone allow to leave out, whatever scene they are drawn in: lights,
+    /// columns and what mirrors are chosen for each scene.
+    pub fn of_any_scene(fingerprint: &Fingerprint<'_>) -> Self {
+        Self {
+            lens: true,
+            ratio: cheaper_ratio(fingerprint),
+            ..Self::default()
+        }
+    }
+
     /// Lights that reach nothing, pixels that are not lit, and the half that mirrors the other.
     fn choose_pixels(&mut self, fingerprint: &Fingerprint<'_>) {
         let scene = &fingerprint.scene;
@@ -130,11 +140,7 @@ impl Plan {
             wrong,
             ..
         } = fingerprint;
-        self.ratio = library.ratio(right, wrong).filter(|ratio| {
-            // Worth it only where the ratio is less work than the wrong formula itself.
-            let work = |expr: &Expr| program(fingerprint, expr).map(|program| program.ops());
-            matches!((work(ratio), work(wrong)), (Ok(ratio), Ok(wrong)) if ratio < wrong)
-        });
+        self.ratio = cheaper_ratio(fingerprint);
         let of_right = calls(right);
         let of_wrong = calls(self.ratio.as_ref().unwrap_or(wrong));
         let same = fingerprint.scene.same();
@@ -185,6 +191,21 @@ impl Plan {
             self.uploaded[index] = needed && !same.everywhere[index];
         }
     }
+}
+
+/// `wrong / right` with what both have in common cancelled, where that is less work than the
+/// wrong formula itself.
+fn cheaper_ratio(fingerprint: &Fingerprint<'_>) -> Option<Expr> {
+    let Fingerprint {
+        library,
+        right,
+        wrong,
+        ..
+    } = fingerprint;
+    let work = |expr: &Expr| program(fingerprint, expr).map(|program| program.ops());
+    library.ratio(right, wrong).filter(
+        |ratio| matches!((work(ratio), work(wrong)), (Ok(ratio), Ok(wrong)) if ratio < wrong),
+    )
 }
 
 /// The calls of a formula as they are written, outermost only.

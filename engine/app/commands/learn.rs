@@ -39,7 +39,8 @@ pub fn lesson(folders: &Folders, args: &Learn) -> Result<Done, Failure> {
     }
 }
 
-fn has_screen() -> bool {
+/// Whether there is a terminal that can be drawn on.
+pub fn has_screen() -> bool {
     let dumb = env::var_os("TERM").is_some_and(|term| term == "dumb");
     !dumb && io::stdin().is_terminal() && io::stdout().is_terminal()
 }

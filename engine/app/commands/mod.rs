@@ -11,6 +11,7 @@ mod learn;
 mod learn_phrases;
 mod list;
 mod mark;
+mod play;
 mod progress;
 mod regrade;
 mod render;
@@ -46,6 +47,7 @@ pub fn run(cli: Cli) -> Result<Done, Failure> {
         Some(Command::Review(args)) => review::run(folders, &args),
         Some(Command::Regrade(args)) => regrade::run(folders, &args),
         Some(Command::Check(args)) => check::run(folders, &args),
+        Some(Command::Play(args)) => play::run(folders, &args),
         Some(Command::Render(args)) => render::run(folders, &args),
         Some(Command::Bench(args)) => bench::run(&args),
         Some(Command::Stress(args)) => stress::run(&args),

@@ -49,6 +49,8 @@ pub enum Action {
     HandIn,
     /// The text in the learner's own editor.
     OpenEditor,
+    /// The picture in view under the arrow keys.
+    Play,
     /// Tick, grab.
     Toggle,
     /// Scroll the page by so many lines.
@@ -174,6 +176,7 @@ fn of_page(key: KeyEvent) -> Action {
         KeyCode::Tab | KeyCode::BackTab => Action::NextFocus,
         KeyCode::Char('s') => Action::Skip,
         KeyCode::Char('t') => Action::Hint,
+        KeyCode::Char('i') => Action::Play,
         KeyCode::Char('?') => Action::Help,
         KeyCode::Char('q') => Action::Quit,
         KeyCode::Esc => Action::Leave,

@@ -10,7 +10,7 @@ use super::draw::page::Page;
 use super::draw::style::Palette;
 use super::field::Field;
 use super::keys::{Action, Focus};
-use crate::fingerprints::fingerprint;
+use crate::fingerprints::{Subject, fingerprint};
 use crate::sitting::{Request, Sitting};
 
 /// A pause in typing after which the draft is saved.
@@ -31,6 +31,8 @@ pub enum Flow {
     Leave,
     /// The text in the field is wanted in the learner's own editor.
     OpenEditor,
+    /// The picture in view is wanted under the arrow keys.
+    Play,
 }
 
 /// The state of the screen; drawing takes a shared reference.
@@ -155,6 +157,11 @@ impl LessonScreen {
         self.scroll < self.last_scroll()
     }
 
+    /// The picture of the lesson that is in view, the first of several.
+    pub fn picture_in_view(&self) -> Option<&Subject> {
+        self.page.picture_in(self.scroll..self.scroll + self.window)
+    }
+
     /// How long the loop may sleep, where something waits to be done here.
     pub fn wakes_in(&self) -> Option<Duration> {
         const SAVING: Duration = Duration::from_millis(10);
@@ -203,6 +210,11 @@ impl LessonScreen {
             Action::HandIn => return self.hand_in(),
             Action::OpenEditor if matches!(self.field, Field::Code(_)) => return Flow::OpenEditor,
             Action::OpenEditor => {}
+            Action::Play if self.picture_in_view().is_some() => {
+                self.save_draft();
+                return Flow::Play;
+            }
+            Action::Play => {}
             Action::Back => return self.send_if(self.shown.can.back, Msg::Back),
             Action::Skip => return self.send_if(self.shown.can.skip, Msg::Skip),
             Action::Hint => return self.send_if(self.shown.can.hint.is_some(), Msg::Hint),

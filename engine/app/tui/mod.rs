@@ -4,6 +4,7 @@
 //! own is under way (a log being written, a draft to be kept, a picture being drawn).
 
 pub mod ball;
+pub mod dials;
 pub mod draw;
 pub mod field;
 pub mod guard;
@@ -11,6 +12,7 @@ pub mod keys;
 pub mod lesson;
 pub mod picker;
 pub mod pictures;
+pub mod play;
 pub mod probe;
 pub mod review;
 
@@ -31,6 +33,7 @@ use self::keys::{Action, Focus};
 use self::lesson::{Flow, LessonScreen};
 use self::picker::{Chosen, Picker};
 use self::pictures::Pictures;
+use self::play::{Left, Play};
 use crate::config::SecondJudge;
 use crate::exit::{Done, Failure, plain_reason};
 use crate::lessons::Shelf;
@@ -136,6 +139,13 @@ impl App<'_> {
                     redraw |= action != Action::Nothing;
                     match self.act(action)? {
                         Flow::Stay => {}
+                        Flow::Play => {
+                            if self.play(&mut terminal).map_err(broken)? == Left::QuitAll {
+                                let _ = self.act(Action::QuitAll)?;
+                                return Ok(());
+                            }
+                            repaint = true;
+                        }
                         Flow::Leave => return Ok(()),
                         Flow::OpenEditor => {
                             self.open_editor(&guard).map_err(broken)?;
@@ -244,6 +254,27 @@ impl App<'_> {
                 picker.said = Some(said);
                 self.screen = Screen::Picker(picker);
                 Ok(Flow::Stay)
+            }
+        }
+    }
+
+    /// Opens the picture in view over the whole screen.
+    fn play(&mut self, terminal: &mut guard::Screen) -> std::io::Result<Left> {
+        let Screen::Lesson(lesson) = &mut self.screen else {
+            return Ok(Left::Back);
+        };
+        let Some(subject) = lesson.picture_in_view() else {
+            return Ok(Left::Back);
+        };
+        let taught = Arc::clone(lesson.sitting.lesson());
+        let play = crate::fingerprints::fingerprint(&taught, &subject.id)
+            .ok_or_else(|| "the lesson has no such picture".to_owned())
+            .and_then(|fingerprint| Play::new(&fingerprint));
+        match play {
+            Ok(mut play) => play.run(terminal, &self.pictures.picker(), self.palette),
+            Err(why) => {
+                lesson.greeting = vec![why];
+                Ok(Left::Back)
             }
         }
     }

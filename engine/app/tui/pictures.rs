@@ -11,6 +11,7 @@ use image::{DynamicImage, RgbaImage};
 use ratatui::layout::Size;
 use ratatui_image::Resize;
 use ratatui_image::picker::{Picker, ProtocolType};
+use ratatui_image::protocol::kitty::Kitty;
 use ratatui_image::sliced::SlicedProtocol;
 use tutor::Lesson;
 
@@ -34,7 +35,7 @@ enum Job {
 }
 
 /// A picture that was drawn.
-enum Drawn {
+pub enum Drawn {
     Pixels(SlicedProtocol),
     /// Rows of letters, where there are no colours.
     Shades(Vec<String>),
@@ -107,6 +108,11 @@ impl Pictures {
                 self.jobs.insert(key, job);
             }
         }
+    }
+
+    /// What the terminal can show; asks it where it was not asked yet.
+    pub fn picker(&mut self) -> Picker {
+        self.picker.get_or_insert_with(probe::picker).clone()
     }
 
     /// Takes what was finished. True where the screen changed.
@@ -183,11 +189,25 @@ fn draw(
         Some(source) => crate::shaders::picture(lesson, &subject.id, source, size)?,
         None => fingerprint_of(lesson, &subject.id, size, cancel)?,
     };
+    paint(
+        picker,
+        colours,
+        (columns, rows, rgba),
+        Size::new(*width, *height),
+    )
+}
+
+/// Pixels (width, height, red green blue alpha) as the terminal shows them in that many cells.
+fn paint(
+    picker: &Picker,
+    colours: bool,
+    (columns, rows, rgba): (u32, u32, Vec<u8>),
+    area: Size,
+) -> Result<Drawn, String> {
     let image = RgbaImage::from_raw(columns, rows, rgba).ok_or("the picture has the wrong size")?;
     if !colours && picker.protocol_type() == ProtocolType::Halfblocks {
-        return Ok(Drawn::Shades(shades(&image, *width, *height)));
+        return Ok(Drawn::Shades(shades(&image, area.width, area.height)));
     }
-    let area = Size::new(*width, *height);
     SlicedProtocol::new_with_resize(
         picker,
         DynamicImage::ImageRgba8(image),
@@ -196,6 +216,29 @@ fn draw(
     )
     .map(Drawn::Pixels)
     .map_err(|error| error.to_string())
+}
+
+/// [`paint`] for a picture that takes the place of the one before, the `count`th of them. Kitty
+/// keeps every picture under its number: here two take turns, so that it keeps no more.
+pub fn paint_again(
+    picker: &Picker,
+    colours: bool,
+    pixels: (u32, u32, Vec<u8>),
+    area: Size,
+    count: u32,
+) -> Result<Drawn, String> {
+    /// Far from the numbers that are drawn by chance, or at least not likely to meet one.
+    const NUMBER: u32 = 0x6c6f_6200;
+    if picker.protocol_type() != ProtocolType::Kitty {
+        return paint(picker, colours, pixels, area);
+    }
+    let (columns, rows, rgba) = pixels;
+    let image = RgbaImage::from_raw(columns, rows, rgba).ok_or("the picture has the wrong size")?;
+    let image = DynamicImage::ImageRgba8(image);
+    let image = Resize::Scale(None).resize(&image, picker.font_size(), area, None);
+    Kitty::new(image, area, NUMBER + count % 2, false, false)
+        .map(|kitty| Drawn::Pixels(SlicedProtocol::Kitty(kitty)))
+        .map_err(|error| error.to_string())
 }
 
 /// The panels of one of the lesson's pictures: width, height, pixels.

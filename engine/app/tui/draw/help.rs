@@ -7,7 +7,7 @@ use ratatui::widgets::{Block, Clear};
 
 use super::style::Palette;
 
-const KEYS: [(&str, &str); 18] = [
+const KEYS: [(&str, &str); 19] = [
     ("Enter, →, l", "go on; answer; open"),
     ("←, h", "back one screen; nothing is lost"),
     ("↑ ↓, k j", "scroll, or choose"),
@@ -17,6 +17,7 @@ const KEYS: [(&str, &str); 18] = [
     ("Esc", "leave a field, so that single keys are commands"),
     ("t, Ctrl-T", "a hint; the third one is the answer"),
     ("s", "skip this"),
+    ("i", "the picture in view under the arrow keys"),
     ("Ctrl-S", "hand in an explanation; run a shader"),
     ("Ctrl-O", "a shader in your own editor ($EDITOR)"),
     ("y n", "tick a point of a checklist, or not"),

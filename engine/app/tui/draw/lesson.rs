@@ -369,6 +369,9 @@ fn keys(screen: &LessonScreen) -> Vec<Key> {
             }
         }
     }
+    if screen.picture_in_view().is_some() {
+        keys.push(key("i", "turn the picture"));
+    }
     if view.can.back {
         keys.push(key("←", "back"));
     }

@@ -7,6 +7,7 @@ pub mod lesson;
 pub mod page;
 pub mod picker;
 pub mod picture;
+pub mod play;
 pub mod plot;
 pub mod style;
 

@@ -137,6 +137,20 @@ impl Page {
         })
     }
 
+    /// The first fingerprint of the lesson of which something stands in these rows.
+    pub fn picture_in(&self, rows: std::ops::Range<usize>) -> Option<&Subject> {
+        self.placed.iter().find_map(|placed| match &placed.what {
+            What::Picture { subject, .. }
+                if subject.own.is_none()
+                    && placed.y < rows.end
+                    && placed.y + placed.height > rows.start =>
+            {
+                Some(subject)
+            }
+            _ => None,
+        })
+    }
+
     /// Draws the rows from `scroll` on into `area`.
     pub fn draw(
         &self,

@@ -19,10 +19,10 @@ pub fn height(width: u16) -> u16 {
 }
 
 /// What the colours of the third panel say.
-const COLOURS: &str = "blue: too dark · white: right · orange: too bright";
+pub const COLOURS: &str = "blue: too dark · white: right · orange: too bright";
 
 /// What the signs there say, where there are no colours.
-const SIGNS: &str = "- too dark · = right · + too bright";
+pub const SIGNS: &str = "- too dark · = right · + too bright";
 
 /// Draws a picture `height` rows high that begins `offset` rows below the top of `window`
 /// (above it, where negative).
@@ -97,7 +97,7 @@ pub fn draw(
 }
 
 /// The names of the three panels, each below its own.
-fn names(width: usize, is_own: bool) -> String {
+pub fn names(width: usize, is_own: bool) -> String {
     let third = width / 3;
     let second = if is_own { "yours" } else { "buggy" };
     ["correct", second, "log2 of the ratio"]
