@@ -36,6 +36,19 @@ fn a_picture_is_turned_and_its_figures_follow() {
     assert_eq!(terminal.wait(), 0);
 }
 
+/// The screen once nothing comes any more: a frame may arrive in parts.
+fn settled(terminal: &Terminal) -> String {
+    let mut before = terminal.text();
+    loop {
+        std::thread::sleep(std::time::Duration::from_millis(300));
+        let now = terminal.text();
+        if now == before {
+            return now;
+        }
+        before = now;
+    }
+}
+
 #[test]
 fn leaving_leads_back_to_the_very_page() {
     let home = tempfile::tempdir().expect("a folder");
@@ -53,14 +66,14 @@ fn leaving_leads_back_to_the_very_page() {
     }
     terminal.wait_for("▀▀▀▀");
     terminal.wait_for("✓ saved");
-    let here = terminal.text();
+    let here = settled(&terminal);
     terminal.send("i");
     terminal.wait_for("▸roughness");
     terminal.send("\u{1b}[C");
     terminal.send("q");
     terminal.wait_until("the page", |screen| screen.contains("i turn the picture"));
     terminal.wait_for("▀▀▀▀");
-    let back = terminal.text();
+    let back = settled(&terminal);
     let seen = |text: &str| -> Vec<String> {
         text.lines()
             .map(|line| line.trim_end().to_owned())
