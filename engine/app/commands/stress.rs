@@ -116,10 +116,11 @@ fn search_all(
 fn heading() -> String {
     format!(
         "The worst error found, in units of the last place (ulp) of the true value, against the\n\
-         textbook forms in high precision; alpha from 1e-4, cosines from 1e-6. Of drawn directions\n\
-         and of world space, beyond what half a unit in the last place of the arguments changes.\n\n  \
-         {:<26} {:<4} {:>8} {:>6} {:>10}  at\n",
-        "function", "", "ulp", "bound", "not finite"
+         textbook forms in high precision; alpha from 1e-4, cosines from 1e-6. Of world space and\n\
+         of drawn directions the error is at most the bound or what half an ulp in each argument\n\
+         changes, whichever is more: jitter is the largest share of that where it is more.\n\n  \
+         {:<26} {:<4} {:>8} {:>6} {:>7} {:>10}  at\n",
+        "function", "", "ulp", "bound", "jitter", "not finite"
     )
 }
 
@@ -131,12 +132,15 @@ fn row(finding: &Finding) -> String {
             .join(", ")
     };
     let first = format!(
-        "{} {:<26} {:<4} {:>8.2} {:>6} {:>10}  ",
+        "{} {:<26} {:<4} {:>8.2} {:>6} {:>7} {:>10}  ",
         if finding.ok() { ' ' } else { '!' },
         finding.name,
         finding.precision.name(),
         finding.worst_ulp,
         finding.bound,
+        finding
+            .of_jitter
+            .map_or(String::new(), |share| format!("{share:.3}")),
         finding.nonfinite,
     );
     let rest = " ".repeat(first.chars().count());
@@ -167,6 +171,9 @@ struct Line<'a> {
     #[serde(serialize_with = "object")]
     at: &'a [(&'static str, f64)],
     bound: f64,
+    /// Share of what the arguments' rounding changes; absent where that is no excuse.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    of_jitter: Option<f64>,
     nonfinite: u32,
     ok: bool,
 }
@@ -179,6 +186,7 @@ impl<'a> Line<'a> {
             worst_ulp: Some(finding.worst_ulp).filter(|ulp| ulp.is_finite()),
             at: &finding.at,
             bound: finding.bound,
+            of_jitter: finding.of_jitter.filter(|share| share.is_finite()),
             nonfinite: finding.nonfinite,
             ok: finding.ok(),
         }

@@ -5,9 +5,9 @@
 //! frame is known, [`crate::Ggx`] is better. All vectors are expected to have length 1.
 
 use crate::ggx::Fresnel;
-use crate::real::{Real, lit, zero_unless_nan};
+use crate::real::{Real, lit, quotient, zero_unless_nan};
 use crate::smith::projected;
-use crate::vector::{Vector, dot, tamed};
+use crate::vector::{Vector, tamed};
 use std::f64::consts::FRAC_1_PI;
 
 /// D of GGX from a normal, a light and a view in world space: D = (α m/(π^½ (s + α² c²)))²,
@@ -62,29 +62,33 @@ fn d_of<R: Real>(n: Vector<R>, l: Vector<R>, v: Vector<R>, alpha: R) -> R {
     )
 }
 
-fn d_of_half<R: Real>(n: Vector<R>, h: [(R, R); 3], alpha: R) -> R {
+fn d_of_half<R: Real>(n: Vector<R>, h: [Sum<R>; 3], alpha: R) -> R {
     let c = dot_sum(n, h);
-    if c < lit(0.0) {
-        return zero_unless_nan([c, alpha]);
+    if c.0 < lit(0.0) {
+        return zero_unless_nan([c.0, alpha]);
     }
     let difference = |i: usize, j: usize| {
         let ((p, p_low), (q, q_low)) = (n[i].two_prod(h[j].0), n[j].two_prod(h[i].0));
-        (p - q) + (p_low - q_low + (n[i] * h[j].1 - n[j] * h[i].1))
+        let (high, low) = p.two_sum(-q);
+        high.two_sum(low + (p_low - q_low + (n[i] * h[j].1 - n[j] * h[i].1)))
     };
     let cross = [difference(1, 2), difference(2, 0), difference(0, 1)];
-    let (s, c2) = (dot(cross, cross), c * c);
-    let t = s + alpha * alpha * c2;
-    if t >= lit(R::TINY) || t.is_nan() {
-        let q = alpha * (s + c2) / t;
+    // D depends on the square of m/t, so that each of the two is kept as a sum to its end.
+    let [x, y, z] = cross.map(squared);
+    let (s, c2) = (plus(plus(x, y), z), squared(c));
+    let (m, t) = (plus(s, c2), plus(s, times(alpha.two_square(), c2)));
+    if t.0 >= lit(R::TINY) || t.0.is_nan() {
+        let (ratio, low) = quotient(m, t);
+        let q = alpha * (ratio + low);
         return q * q * lit(FRAC_1_PI);
     }
     // The squares vanish before their ratio does.
-    let across = cross[0].hypot(cross[1]).hypot(cross[2]);
-    let along = across.hypot(alpha * c);
+    let across = cross[0].0.hypot(cross[1].0).hypot(cross[2].0);
+    let along = across.hypot(alpha * c.0);
     if along == lit(0.0) {
         return lit::<R>(1.0) / along;
     }
-    let q = (alpha * c / along) * (c / along);
+    let q = (alpha * c.0 / along) * (c.0 / along);
     q * q * lit(FRAC_1_PI)
 }
 
@@ -111,7 +115,7 @@ pub fn specular_ggx_world<R: Real>(
 }
 
 fn eval_cos_of<R: Real>(n: Vector<R>, l: Vector<R>, v: Vector<R>, alpha: R) -> R {
-    let exact = |v: Vector<R>| dot_sum(n, v.map(|x| (x, lit(0.0))));
+    let exact = |v: Vector<R>| dot_sum(n, v.map(|x| (x, lit(0.0)))).0;
     let (n_dot_l, n_dot_v) = (exact(l), exact(v));
     if n_dot_l <= lit(0.0) || n_dot_v <= lit(0.0) {
         return zero_unless_nan([n_dot_l, n_dot_v, alpha]);
@@ -131,14 +135,35 @@ fn eval_cos_of<R: Real>(n: Vector<R>, l: Vector<R>, v: Vector<R>, alpha: R) -> R
     d_of(n, l, v, alpha) * visible
 }
 
+/// A number as an unevaluated sum: rounded, and what rounding took.
+type Sum<R> = (R, R);
+
+#[inline(always)]
+fn plus<R: Real>(a: Sum<R>, b: Sum<R>) -> Sum<R> {
+    let (high, low) = a.0.two_sum(b.0);
+    (high, low + (a.1 + b.1))
+}
+
+#[inline(always)]
+fn times<R: Real>(a: Sum<R>, b: Sum<R>) -> Sum<R> {
+    let (high, low) = a.0.two_prod(b.0);
+    (high, low + (a.0 * b.1 + a.1 * b.0))
+}
+
+#[inline(always)]
+fn squared<R: Real>(a: Sum<R>) -> Sum<R> {
+    let (high, low) = a.0.two_square();
+    (high, low + lit::<R>(2.0) * a.0 * a.1)
+}
+
 /// n · h of a sum kept with its rounding errors: where it almost vanishes its digits are there.
 #[inline(always)]
-fn dot_sum<R: Real>(n: Vector<R>, h: [(R, R); 3]) -> R {
+fn dot_sum<R: Real>(n: Vector<R>, h: [Sum<R>; 3]) -> Sum<R> {
     let [x, y, z] = [0, 1, 2].map(|i| {
         let (p, p_low) = n[i].two_prod(h[i].0);
         (p, p_low + n[i] * h[i].1)
     });
     let (sum, low) = x.0.two_sum(y.0);
     let (sum, low2) = sum.two_sum(z.0);
-    sum + ((low + low2) + (x.1 + y.1 + z.1))
+    sum.two_sum((low + low2) + (x.1 + y.1 + z.1))
 }

@@ -22,14 +22,18 @@ fn main() -> ExitCode {
             }
             let finding = search(subject, precision, effort, 1);
             ok &= finding.ok();
+            let of_jitter = finding
+                .of_jitter
+                .map_or(String::new(), |ratio| format!("{ratio:.3} of the jitter, "));
             println!(
-                "{} {:26} {:8.2} of {:3} {:3} not finite  {:?}",
+                "{} {:26} {:8.2} of {:3}, {of_jitter}{} not finite  {:?} {:?}",
                 precision.name(),
                 finding.name,
                 finding.worst_ulp,
                 finding.bound,
                 finding.nonfinite,
-                finding.at
+                finding.at,
+                finding.odd
             );
         }
     }

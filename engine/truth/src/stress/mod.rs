@@ -69,8 +69,12 @@ pub struct Finding {
     pub name: &'static str,
     /// In which arithmetic.
     pub precision: Precision,
-    /// Error in units of the last place of the true value; see [`bound`] for the others.
+    /// Error in units of the last place of the true value; where the arguments' own rounding costs
+    /// more than the bound, that counts as the bound.
     pub worst_ulp: f64,
+    /// The largest error over what half a unit in the last place of each argument changes, of the
+    /// points where that change exceeds the bound. None where a function has to be close everywhere.
+    pub of_jitter: Option<f64>,
     /// Where, argument by argument.
     pub at: Vec<(&'static str, f64)>,
     /// What the error should not exceed.
@@ -91,8 +95,8 @@ impl Finding {
 /// What the error of a subject should not exceed, in units of the last place.
 ///
 /// Of what depends on world-space vectors, and of a drawn direction, half a unit in the last
-/// place of each argument may change more than that. There an error at the bound is one of so
-/// many units and all that the arguments' own rounding costs, and none is counted otherwise.
+/// place of each argument may change more than that. There the error may be as large as that
+/// change, and no larger: the two are not added.
 pub fn bound(name: &str) -> f64 {
     match name {
         // The fifth power of 1 − V·H, and the product of three functions.
@@ -140,9 +144,17 @@ pub fn search(subject: &Subject, precision: Precision, effort: Effort, seed: u64
     let keep = effort.climbs.max(1);
     let share = |count: u32| ((f64::from(count) * subject.share()) as u32).max(20);
     let (count, steps) = (share(effort.points), share(effort.steps));
+    let mut of_jitter = subject.is_ill_conditioned().then_some(0.0f64);
+    let mut measure = |args: &[f64]| {
+        let measured = quick_error(subject, precision, args);
+        if let (Some(worst), Some(ratio)) = (&mut of_jitter, measured.of_jitter) {
+            *worst = worst.max(ratio);
+        }
+        measured.ulp
+    };
     for _ in 0..count {
         let args = draw(&subject.params, precision, &mut numbers);
-        let error = quick_error(subject, precision, &args);
+        let error = measure(&args);
         if error.is_infinite() {
             nonfinite += 1;
         }
@@ -158,7 +170,7 @@ pub fn search(subject: &Subject, precision: Precision, effort: Effort, seed: u64
             let share = 1e-2 * 1e-6f64.powf(f64::from(step) / f64::from(steps));
             let next = moved(&subject.params, precision, &mut numbers, share, &point.1);
             let Some(args) = next else { continue };
-            let error = quick_error(subject, precision, &args);
+            let error = measure(&args);
             if error > point.0 {
                 *point = (error, args);
             }
@@ -182,6 +194,7 @@ pub fn search(subject: &Subject, precision: Precision, effort: Effort, seed: u64
         name: subject.name,
         precision,
         worst_ulp: worst.0,
+        of_jitter,
         at: names.zip(worst.1).collect(),
         bound: bound(subject.name),
         nonfinite: nonfinite + without_value,
@@ -221,44 +234,73 @@ pub(crate) fn error_against(
     distance(truth, result, scale(term.name, args), precision)
 }
 
+/// An error, and what it is compared with.
+struct Measured {
+    /// In units of the last place, or in as many parts of the jitter as the bound has units.
+    ulp: f64,
+    /// Over the jitter, where that exceeds the bound.
+    of_jitter: Option<f64>,
+}
+
+impl Measured {
+    const NONE: Measured = Measured {
+        ulp: 0.0,
+        of_jitter: None,
+    };
+
+    /// Of an error in units of the last place at a truth of some size.
+    fn new(subject: &Subject, precision: Precision, args: &[f64], ulp: f64, size: f64) -> Measured {
+        let of_jitter = None;
+        if !subject.is_ill_conditioned() || !ulp.is_finite() {
+            return Measured { ulp, of_jitter };
+        }
+        let unit = precision.ulp(size.abs().max(scale(subject.name, args)));
+        let bound = bound(subject.name);
+        let jitter = subject.jitter(precision, args) / unit;
+        if jitter <= bound {
+            return Measured { ulp, of_jitter };
+        }
+        Measured {
+            ulp: ulp / jitter * bound,
+            of_jitter: Some(ulp / jitter),
+        }
+    }
+}
+
 fn exact_error(subject: &Subject, precision: Precision, args: &[f64]) -> f64 {
     let Some(truth) = subject.truth(precision, args) else {
         return 0.0;
     };
-    relate(subject, precision, args, &truth)
+    relate(subject, precision, args, &truth).ulp
 }
 
 /// The same with less of a truth: for single precision, what is computed in double precision
 /// is good to 1e-8 of a unit as long as double precision is what it should be.
-fn quick_error(subject: &Subject, precision: Precision, args: &[f64]) -> f64 {
+fn quick_error(subject: &Subject, precision: Precision, args: &[f64]) -> Measured {
     if precision == Precision::Double {
         return match subject.quick_truth(args) {
             Some(truth) => relate(subject, precision, args, &truth),
-            None => 0.0,
+            None => Measured::NONE,
         };
     }
     let truth = subject.double_truth(args);
     let result = subject.evaluate(precision, args);
     if !truth.is_finite() || truth.abs() > precision.largest() {
-        return 0.0;
+        return Measured::NONE;
     }
-    if !result.is_finite() {
-        return f64::INFINITY;
-    }
-    let unit = precision.ulp(truth.abs().max(scale(subject.name, args)));
-    (result - truth).abs() / (unit + subject.jitter(precision, args) / bound(subject.name))
+    let ulp = if result.is_finite() {
+        let unit = precision.ulp(truth.abs().max(scale(subject.name, args)));
+        (result - truth).abs() / unit
+    } else {
+        f64::INFINITY
+    };
+    Measured::new(subject, precision, args, ulp, truth)
 }
 
-fn relate(subject: &Subject, precision: Precision, args: &[f64], truth: &Big) -> f64 {
+fn relate(subject: &Subject, precision: Precision, args: &[f64], truth: &Big) -> Measured {
     let result = subject.evaluate(precision, args);
-    let scale = scale(subject.name, args);
-    let error = distance(truth, result, scale, precision);
-    let jitter = subject.jitter(precision, args);
-    if jitter == 0.0 || !error.is_finite() {
-        return error;
-    }
-    let unit = precision.ulp(truth.to_f64().abs().max(scale));
-    error * unit / (unit + jitter / bound(subject.name))
+    let ulp = distance(truth, result, scale(subject.name, args), precision);
+    Measured::new(subject, precision, args, ulp, truth.to_f64())
 }
 
 /// Distance of a result from a truth in units of the last place of a number of that size.
@@ -310,6 +352,26 @@ mod tests {
             let found = find(name, form).worst_ulp;
             assert!(found > at_least, "{name}: {found}");
         }
+    }
+
+    /// N·H from a half vector of length 1, as shaders take it, is worse than its arguments.
+    #[test]
+    fn rounding_of_arguments_does_not_excuse_everything() {
+        let found = find("d_ggx_world", |args| {
+            let [n, l, v] = [0, 3, 6].map(|i| brdf::glam::Vec3::from_slice(&args[i..i + 3]));
+            brdf::d_ggx(n.dot((l + v).normalize()), args[9])
+        });
+        assert!(
+            found.of_jitter.is_some_and(|ratio| ratio > 1.5),
+            "{found:?}"
+        );
+        let own = |args: &[f32]| {
+            let [n, l, v] = [0, 3, 6].map(|i| brdf::glam::Vec3::from_slice(&args[i..i + 3]));
+            brdf::d_ggx_world(n, l, v, args[9])
+        };
+        let subject = Subject::replaced("d_ggx_world", own);
+        let found = search(&subject, Precision::Single, Effort::QUICK, 1);
+        assert!(found.ok(), "{found:?}");
     }
 
     #[test]

@@ -31,7 +31,8 @@ enum Single {
 enum Against {
     /// The textbook form of the same name at the same arguments.
     Form,
-    /// The same, but what half a unit in the last place of each argument changes is allowed for.
+    /// The same, but an error as large as what half a unit in the last place of each argument
+    /// changes is none.
     Jitter,
     /// The textbook form of that name at what the subject drew: rounded, a direction is another
     /// direction, and its density and weight are that one's.
@@ -59,7 +60,8 @@ impl Subject {
     /// That term with another function in its place.
     #[cfg(test)]
     pub(super) fn replaced(name: &str, single: fn(&[f32]) -> f32) -> Subject {
-        let term = brdf::term(name).expect("a term");
+        let mut terms = brdf::terms().iter().chain(brdf::vector_terms());
+        let term = terms.find(|term| term.name == name).expect("a term");
         Subject {
             single: Single::Value(single),
             ..Subject::of(term)
@@ -131,12 +133,8 @@ impl Subject {
         }
     }
 
-    /// What half a unit in the last place of each argument can change, where errors are
-    /// compared with that; else 0.
+    /// What half a unit in the last place of each argument can change: the sum over them.
     pub(super) fn jitter(&self, precision: Precision, args: &[f64]) -> f64 {
-        if self.against != Against::Jitter {
-            return 0.0;
-        }
         // In double precision half a unit is too small a step for a difference.
         let widen = match precision {
             Precision::Single => 1.0,
