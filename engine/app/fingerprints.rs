@@ -288,7 +288,9 @@ pub fn table_of(points: &[renders::ProfilePoint], second: &str) -> Option<TableV
 mod tests {
     use super::*;
     use crate::lessons::Shelf;
-    use renders::Raw;
+    use renders::{Precision, Raw};
+    use std::sync::atomic::AtomicBool;
+    use tutor::lesson::SEEN;
 
     fn values(fingerprint: &Fingerprint, skip: bool) -> Raw {
         let options = Options {
@@ -298,6 +300,57 @@ mod tests {
             ..Options::default()
         };
         renders::raw(fingerprint, &options).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    /// Every figure of a picture, to the last bit.
+    fn seen(fingerprint: &Fingerprint, backend: Backend, precision: Precision) -> Vec<u64> {
+        let options = Options {
+            size: 64,
+            backend,
+            precision,
+            ..Options::default()
+        };
+        let picture = renders::render(fingerprint, &options, &AtomicBool::new(false));
+        let seen = picture.unwrap_or_else(|error| panic!("{error}")).report;
+        SEEN.iter()
+            .map(|name| figure(&seen.visibility, name).expect("a figure").to_bits())
+            .collect()
+    }
+
+    /// Of every picture of every lesson: the same figures, whatever draws it. In f32 much of a
+    /// picture may have a ratio of exactly 1 where it is a little more.
+    #[test]
+    fn every_backend_has_the_same_figures_of_every_lesson() {
+        let adapter = renders::gpu_adapter();
+        if let Err(error) = &adapter {
+            let required = std::env::var("LOBE_REQUIRE_GPU").is_ok_and(|value| value == "1");
+            assert!(!required, "LOBE_REQUIRE_GPU=1, but {error}");
+            println!("skipped on graphics processors: no Vulkan adapter ({error})");
+        }
+        let shelf = Shelf::open(None).expect("lessons");
+        let mut compared = 0;
+        for lesson in shelf.lessons() {
+            for entry in &lesson.fingerprints {
+                let fingerprint = fingerprint(lesson, &entry.id).expect("a fingerprint");
+                let on_cpu = |precision| seen(&fingerprint, Backend::Cpu, precision);
+                let figures = on_cpu(Precision::F64);
+                assert_eq!(figures, on_cpu(Precision::F32), "f32: {}", entry.id);
+                if adapter.is_ok() {
+                    let on_gpu = seen(&fingerprint, Backend::Gpu, Precision::F64);
+                    assert_eq!(figures, on_gpu, "gpu: {}", entry.id);
+                }
+                let options = Options {
+                    size: 64,
+                    ..Options::default()
+                };
+                let alone = renders::visibility(&fingerprint, &options);
+                let alone = alone.unwrap_or_else(|error| panic!("{error}"));
+                let alone = SEEN.map(|name| figure(&alone, name).expect("a figure").to_bits());
+                assert_eq!(figures, alone, "alone: {}", entry.id);
+                compared += 1;
+            }
+        }
+        assert!(compared > 0, "no lesson has a picture");
     }
 
     /// Of every picture of every lesson: what is skipped changes no bit of the right values,

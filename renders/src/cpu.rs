@@ -18,6 +18,7 @@ thread_local! {
 }
 
 /// Both formulas compiled for one scene, into one program: what they share is computed once.
+#[derive(Clone)]
 pub(crate) struct Cpu {
     program: Program,
     /// The second value is the wrong one over the right one.

@@ -69,6 +69,7 @@ use crate::sample::Panel;
 use crate::shade::{Engine, Job, Shaded, shade};
 use crate::visibility::Tally;
 use formula::{Expr, Library};
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
@@ -262,28 +263,30 @@ pub fn render(
 
 fn render_planned(
     fingerprint: &Fingerprint<'_>,
-    plan: Plan,
+    mut plan: Plan,
     options: &Options,
     cancel: &AtomicBool,
 ) -> Result<Picture, Error> {
     let start = Instant::now();
     // The figures are in f64, whatever draws the panels.
-    let cpu = Cpu::new(fingerprint, &plan, Precision::F64)?;
+    let cpu = Arc::new(Cpu::new(fingerprint, &plan, Precision::F64)?);
     let profile = Profile::of(fingerprint, &cpu);
     let exposure = profile.exposure();
-    let drawn = draw_panels(
-        fingerprint,
-        options,
-        &plan,
-        Shown {
-            exposure,
-            raw: false,
-        },
-        cancel,
-    )?;
-    let mut tally = Tally::default();
-    tally.add(&drawn.shaded, &EncodeTable::new());
-    let visibility = visibility::measure(fingerprint, &cpu, &drawn.panel, &tally);
+    let shown = Shown {
+        exposure,
+        raw: false,
+    };
+    let drawn = draw_panels(fingerprint, options, &plan, shown, cancel)?;
+    let tally = if visibility::holds_for(drawn.backend, options) {
+        let mut tally = Tally::of(&drawn.panel);
+        tally.add(&drawn.shaded, &EncodeTable::new());
+        tally
+    } else {
+        plan.explain.push(visibility::COUNTED_APART.to_owned());
+        let job = job(fingerprint, options, &plan, shown, cancel)?;
+        visibility::tally(&job, &cpu, &EncodeTable::new())?
+    };
+    let visibility = visibility::measure(fingerprint, &cpu, &tally);
     let canvas = if options.compact || options.size < LEAST_WITH_TEXT {
         picture::compact(&drawn.panel, &drawn.shaded)
     } else {
@@ -350,21 +353,21 @@ pub fn raw(fingerprint: &Fingerprint<'_>, options: &Options) -> Result<Raw, Erro
     })
 }
 
-/// The figures of a picture, without the picture.
+/// The figures of a picture, without the picture: always in f64, whatever would draw it.
 ///
 /// # Errors
 /// As [`render`].
 pub fn visibility(fingerprint: &Fingerprint<'_>, options: &Options) -> Result<Visibility, Error> {
     let plan = Plan::of(fingerprint, options.skip);
-    let cpu = Cpu::new(fingerprint, &plan, Precision::F64)?;
+    let cpu = Arc::new(Cpu::new(fingerprint, &plan, Precision::F64)?);
     let shown = Shown {
         exposure: Profile::of(fingerprint, &cpu).exposure(),
         raw: false,
     };
-    let drawn = draw_panels(fingerprint, options, &plan, shown, &AtomicBool::new(false))?;
-    let mut tally = Tally::default();
-    tally.add(&drawn.shaded, &EncodeTable::new());
-    Ok(visibility::measure(fingerprint, &cpu, &drawn.panel, &tally))
+    let never = AtomicBool::new(false);
+    let job = job(fingerprint, options, &plan, shown, &never)?;
+    let tally = visibility::tally(&job, &cpu, &EncodeTable::new())?;
+    Ok(visibility::measure(fingerprint, &cpu, &tally))
 }
 
 /// At how many points, over all lights, the formulas are evaluated for a picture.
@@ -436,7 +439,7 @@ fn engine(fingerprint: &Fingerprint<'_>, options: &Options, plan: &Plan) -> Resu
         Some(engine) => Ok(engine),
         None => {
             let cpu = Cpu::new(fingerprint, plan, options.precision)?;
-            Ok(Engine::Cpu(Box::new(cpu)))
+            Ok(Engine::Cpu(Arc::new(cpu)))
         }
     }
 }
@@ -461,7 +464,7 @@ fn draw_panels(
         });
     }
     let on_cpu = || -> Result<Drawn, Error> {
-        let engine = Engine::Cpu(Box::new(Cpu::new(fingerprint, plan, options.precision)?));
+        let engine = Engine::Cpu(Arc::new(Cpu::new(fingerprint, plan, options.precision)?));
         let shaded = shade(&job, &engine)?;
         Ok(Drawn {
             panel,

@@ -8,9 +8,10 @@ use crate::profile::Profile;
 use crate::sample::Panel;
 use crate::scene::VARYING;
 use crate::shade::{Engine, Job, Shaded, shade};
-use crate::visibility::{self, Tally, Visibility};
+use crate::visibility::{self, Visibility};
 use crate::{Error, Fingerprint, MAX_SIZE, MIN_SIZE, Precision, Raw, Scene, picture};
 use formula::{Expr, Library};
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
@@ -23,9 +24,11 @@ pub struct Preview {
     plan: Plan,
     /// The quantities of the scene that the formulas need.
     needs: Vec<String>,
-    shades: Engine,
-    measures: Cpu,
+    shades: Arc<Cpu>,
+    measures: Arc<Cpu>,
     encode: EncodeTable,
+    /// A frame is never cancelled.
+    never: AtomicBool,
 }
 
 /// One picture of a [`Preview`].
@@ -61,14 +64,15 @@ impl Preview {
         let mut needs = library.needs(right);
         needs.append(&mut library.needs(wrong));
         Ok(Self {
-            shades: Engine::Cpu(Box::new(Cpu::new(fingerprint, &plan, Precision::F32)?)),
-            measures: Cpu::new(fingerprint, &plan, Precision::F64)?,
+            shades: Arc::new(Cpu::new(fingerprint, &plan, Precision::F32)?),
+            measures: Arc::new(Cpu::new(fingerprint, &plan, Precision::F64)?),
             library: (*library).clone(),
             right: (*right).clone(),
             wrong: (*wrong).clone(),
             plan,
             needs: needs.into_iter().collect(),
             encode: EncodeTable::new(),
+            never: AtomicBool::new(false),
         })
     }
 
@@ -88,17 +92,17 @@ impl Preview {
         let fingerprint = self.fingerprint(scene);
         let exposure = Profile::of(&fingerprint, &self.measures).exposure() * stops.exp2();
         let start = Instant::now();
-        let (panel, shaded) = self.shade(scene, columns, size, exposure, false)?;
+        let job = self.job(scene, columns, size, exposure, false)?;
+        let shaded = self.shade(&job)?;
         let shading = start.elapsed();
-        let mut tally = Tally::default();
-        tally.add(&shaded, &self.encode);
-        let canvas = picture::compact(&panel, &shaded);
+        let tally = visibility::tally(&job, &self.measures, &self.encode)?;
+        let canvas = picture::compact(&job.panel, &shaded);
         Ok(Frame {
             width: canvas.width() as u32,
             height: canvas.height() as u32,
             rgba: canvas.rgba(),
             exposure,
-            visibility: visibility::measure(&fingerprint, &self.measures, &panel, &tally),
+            visibility: visibility::measure(&fingerprint, &self.measures, &tally),
             shading,
         })
     }
@@ -109,7 +113,7 @@ impl Preview {
     /// As [`Preview::draw`].
     pub fn raw(&mut self, scene: &Scene, size: u32) -> Result<Raw, Error> {
         let columns = self.prepare(scene)?;
-        let (_, shaded) = self.shade(scene, columns, size, 1.0, true)?;
+        let shaded = self.shade(&self.job(scene, columns, size, 1.0, true)?)?;
         Ok(Raw {
             size,
             channels: shaded.channels() as u32,
@@ -121,9 +125,8 @@ impl Preview {
     /// Takes over what the scene gives; the columns that its points need.
     fn prepare(&mut self, scene: &Scene) -> Result<[bool; VARYING.len()], Error> {
         scene.check()?;
-        self.measures.take_over(scene)?;
-        if let Engine::Cpu(cpu) = &mut self.shades {
-            cpu.take_over(scene)?;
+        for cpu in [&mut self.measures, &mut self.shades] {
+            Arc::make_mut(cpu).take_over(scene)?;
         }
         let same = scene.same().a_light;
         Ok(std::array::from_fn(|index| {
@@ -144,14 +147,18 @@ impl Preview {
         }
     }
 
-    fn shade(
+    fn shade(&self, job: &Job<'_>) -> Result<Shaded, Error> {
+        shade(job, &Engine::Cpu(self.shades.clone()))
+    }
+
+    fn job(
         &self,
         scene: &Scene,
         columns: [bool; VARYING.len()],
         size: u32,
         exposure: f64,
         raw: bool,
-    ) -> Result<(Panel, Shaded), Error> {
+    ) -> Result<Job<'_>, Error> {
         if !(MIN_SIZE..=MAX_SIZE).contains(&size) {
             return Err(Error::Size(size));
         }
@@ -167,15 +174,14 @@ impl Preview {
             .map(|(geometry, light)| (*geometry, light.weights()))
             .filter(|(geometry, weights)| geometry.reaches() && *weights != [0.0; 3])
             .collect();
-        let job = Job {
+        Ok(Job {
             panel,
             mirror: lights.iter().all(|(geometry, _)| geometry.is_level()),
             channels: if scene.is_grey() { 1 } else { 3 },
             exposure,
             raw,
-            cancel: &AtomicBool::new(false),
+            cancel: &self.never,
             lights,
-        };
-        Ok((panel, shade(&job, &self.shades)?))
+        })
     }
 }

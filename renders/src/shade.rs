@@ -7,6 +7,7 @@ use crate::gpu::Gpu;
 use crate::sample::{Panel, Part, Samples};
 use rayon::prelude::*;
 use std::ops::Range;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Samples that a graphics processor is given at once, about: what they need is bounded.
@@ -65,7 +66,7 @@ fn clamp(value: &mut f64) {
 
 /// What evaluates the formulas.
 pub(crate) enum Engine {
-    Cpu(Box<Cpu>),
+    Cpu(Arc<Cpu>),
     Gpu(Box<Gpu>),
     /// Nothing is to be evaluated.
     Idle,

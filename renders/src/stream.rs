@@ -11,10 +11,11 @@ use crate::plan::Plan;
 use crate::png16;
 use crate::profile::Profile;
 use crate::shade::{Job, Shaded, shade};
-use crate::visibility::{Tally, Visibility, measure};
+use crate::visibility::{COUNTED_APART, Tally, Visibility, holds_for, measure, tally};
 use crate::{Fingerprint, LEAST_WITH_TEXT, Options, Precision, Report, Shown, engine, job, render};
 use std::io::Write;
 use std::ops::Range;
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
@@ -66,7 +67,7 @@ fn write_png_holding(
     if options.size > held.whole {
         plan.no_mirror("the picture is drawn in strips, so that it needs little memory");
     }
-    let cpu = Cpu::new(fingerprint, &plan, Precision::F64)?;
+    let cpu = Arc::new(Cpu::new(fingerprint, &plan, Precision::F64)?);
     let profile = Profile::of(fingerprint, &cpu);
     let shown = Shown {
         exposure: profile.exposure(),
@@ -77,7 +78,15 @@ fn write_png_holding(
     let page = Page::new(fingerprint, job.panel, &profile, shown.exposure);
     let size = job.panel.size;
 
-    let mut window = Window::default();
+    let (backend, adapter) = engine.name();
+    let counts = holds_for(backend, options);
+    if !counts {
+        plan.explain.push(COUNTED_APART.to_owned());
+    }
+    let mut window = Window {
+        tally: counts.then(|| Tally::of(&job.panel)),
+        ..Window::default()
+    };
     if options.size <= held.whole {
         window.take(shade(&job, &engine)?);
     }
@@ -99,7 +108,11 @@ fn write_png_holding(
         }
         // Below the panels stand the figures of all their pixels.
         if window.end(size) == size && visibility.is_none() {
-            visibility = Some(measure(fingerprint, &cpu, &job.panel, &window.tally));
+            let tally = match window.tally {
+                Some(tally) => tally,
+                None => tally(&job, &cpu, &window.encode)?,
+            };
+            visibility = Some(measure(fingerprint, &cpu, &tally));
         }
         let mut canvas = Canvas::strip(page.width, page.height, rows, DARK.paper);
         let known = visibility.as_ref().unwrap_or(&Visibility::UNKNOWN);
@@ -107,7 +120,6 @@ fn write_png_holding(
         file.write_all(canvas.rgb()).map_err(unwritten)?;
     }
     file.finish().map_err(unwritten)?;
-    let (backend, adapter) = engine.name();
     let pixels = u64::from(options.size).pow(2);
     Ok(Report {
         backend,
@@ -214,7 +226,8 @@ struct Window {
     shaded: Shaded,
     /// The panel's row that the first of them is.
     first: usize,
-    tally: Tally,
+    /// The figures of all of them, where they are counted on these rows.
+    tally: Option<Tally>,
     encode: EncodeTable,
     pixels: u64,
     points: u64,
@@ -228,7 +241,9 @@ impl Window {
 
     /// Adds the rows that come next.
     fn take(&mut self, more: Shaded) {
-        self.tally.add(&more, &self.encode);
+        if let Some(tally) = &mut self.tally {
+            tally.add(&more, &self.encode);
+        }
         self.pixels += more.pixels;
         self.points += more.points;
         self.shaded.append(&more);

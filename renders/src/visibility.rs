@@ -1,13 +1,21 @@
 //! Whether the bug shows: a few numbers that say what the eye may miss.
 
-use crate::Fingerprint;
 use crate::colour::EncodeTable;
 use crate::cpu::Cpu;
+use crate::error::Error;
 use crate::probe::{Place, Probe, Probed};
 use crate::sample::Panel;
-use crate::shade::{Shaded, luminance};
+use crate::shade::{Engine, Job, Shaded, luminance, shade};
+use crate::{Fingerprint, Options, Precision};
+use std::sync::Arc;
 
-/// What a fingerprint shows, in numbers. Under several lights highlight and terminator are the
+/// What is counted in pixels is counted on a panel of at most this size: a larger one would
+/// change no digit that is printed.
+const LARGEST: usize = 1024;
+
+/// What a fingerprint shows, in numbers: always computed in f64, so that they are the same
+/// whatever draws. (In f32 every ratio within 6e-8 of 1 is 1, and that can be a good part of a
+/// picture.) Under several lights highlight and terminator are the
 /// main light's, the first of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Visibility {
@@ -40,12 +48,7 @@ impl Visibility {
     };
 }
 
-pub(crate) fn measure(
-    fingerprint: &Fingerprint<'_>,
-    cpu: &Cpu,
-    panel: &Panel,
-    tally: &Tally,
-) -> Visibility {
+pub(crate) fn measure(fingerprint: &Fingerprint<'_>, cpu: &Cpu, tally: &Tally) -> Visibility {
     let probe = Probe::new(fingerprint, cpu);
     let main = probe.main();
     let (terminator, _) = main.lit_along();
@@ -57,11 +60,10 @@ pub(crate) fn measure(
     let right = |found: &[Probed]| found.first().map_or(f64::NAN, |it| luminance(&it.right));
     let rim = rim_median(&probe);
 
-    let disc = std::f64::consts::PI * panel.outline().powi(2);
     let lit_pixels = tally.lit_pixels as f64;
     Visibility {
         lit_above_one: share(tally.brighter_area, tally.lit_area),
-        disc_above_one: share(tally.brighter_area, disc),
+        disc_above_one: share(tally.brighter_area, tally.disc),
         ratio_at_highlight: highlight.first().map_or(f64::NAN, |it| it.ratio),
         rim_over_highlight: (rim.0 / wrong(&highlight), rim.1 / right(&highlight)),
         terminator_step: if terminator > -1.5 {
@@ -76,10 +78,44 @@ pub(crate) fn measure(
     }
 }
 
+/// Said of a picture whose figures were not counted on it.
+pub(crate) const COUNTED_APART: &str = "the figures are counted on a panel of their own, in f64 on the CPU: they are the same whatever draws";
+
+/// Whether what `backend` drew holds the figures: in f64, and on the panel that they are counted
+/// on.
+pub(crate) fn holds_for(backend: &str, options: &Options) -> bool {
+    backend == "cpu" && options.precision == Precision::F64 && options.size as usize <= LARGEST
+}
+
+/// The sums for a picture that was drawn otherwise: `cpu` computes in f64.
+pub(crate) fn tally(job: &Job<'_>, cpu: &Arc<Cpu>, encode: &EncodeTable) -> Result<Tally, Error> {
+    let panel = Panel {
+        size: job.panel.size.min(LARGEST),
+        everywhere: false,
+        ..job.panel
+    };
+    let lights = job.lights.clone();
+    let job = Job {
+        panel,
+        lights,
+        raw: false,
+        ..*job
+    };
+    let engine = match job.lights.is_empty() {
+        true => Engine::Idle,
+        false => Engine::Cpu(cpu.clone()),
+    };
+    let shaded = shade(&job, &engine)?;
+    let mut tally = Tally::of(&panel);
+    tally.add(&shaded, encode);
+    Ok(tally)
+}
+
 /// Sums over the pixels of a picture.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Tally {
-    /// Areas in pixels: lit, and lit where the wrong value is the greater.
+    /// Areas in pixels: of the disc, lit, and lit where the wrong value is the greater.
+    disc: f64,
     lit_area: f64,
     brighter_area: f64,
     /// Pixels that are lit at all, and those of them that become visibly brighter or dimmer.
@@ -89,6 +125,18 @@ pub(crate) struct Tally {
 }
 
 impl Tally {
+    /// Of a panel of which no row was added yet.
+    pub fn of(panel: &Panel) -> Self {
+        Self {
+            disc: std::f64::consts::PI * panel.outline().powi(2),
+            lit_area: 0.0,
+            brighter_area: 0.0,
+            lit_pixels: 0,
+            brighter: 0,
+            dimmer: 0,
+        }
+    }
+
     /// Adds the pixels of some rows.
     pub fn add(&mut self, shaded: &Shaded, encode: &EncodeTable) {
         let channels = shaded.channels();
