@@ -1,14 +1,8 @@
-//! The lobe from vectors: agreement with the terms, samplers against their densities.
+//! The lobe from vectors: agreement with the terms, samplers against the albedo. Whether they draw
+//! their densities is for `chi_square.rs`.
 
 use brdf::*;
 use std::f64::consts::PI;
-
-const SAMPLERS: [Sampler; 4] = [
-    Sampler::Hemisphere,
-    Sampler::SphericalCap,
-    Sampler::BoundedCap,
-    Sampler::Cosine,
-];
 
 /// Numbers that follow from a seed (SplitMix64).
 struct Numbers(u64);
@@ -77,81 +71,6 @@ fn vectors_and_cosines_agree() {
             ggx.eval(l, v),
         );
         close(f64::from(value), truth, 1e-3);
-    }
-}
-
-/// χ² of drawn directions against the integral of the density, over bins of (z, φ).
-fn chi_square(ggx: Ggx<f64>, v: [f64; 3], sampler: Sampler) -> (f64, f64) {
-    const ROWS: usize = 16;
-    const COLUMNS: usize = 16;
-    const DRAWN: usize = 60_000;
-    let bin = |l: [f64; 3]| {
-        let row = ((l[2] + 1.0) * 0.5 * ROWS as f64) as usize;
-        let turn = l[1].atan2(l[0]) / (2.0 * PI) + 0.5;
-        row.min(ROWS - 1) * COLUMNS + ((turn * COLUMNS as f64) as usize).min(COLUMNS - 1)
-    };
-    let mut expected = vec![0.0; ROWS * COLUMNS];
-    let fine = 24;
-    for i in 0..ROWS * fine {
-        for j in 0..COLUMNS * fine {
-            let z = (i as f64 + 0.5) / (ROWS * fine) as f64 * 2.0 - 1.0;
-            let phi = ((j as f64 + 0.5) / (COLUMNS * fine) as f64 - 0.5) * 2.0 * PI;
-            let area = 4.0 * PI / (ROWS * COLUMNS * fine * fine) as f64;
-            let l = direction(z, phi);
-            expected[i / fine * COLUMNS + j / fine] += ggx.pdf(l, v, sampler) * area * DRAWN as f64;
-        }
-    }
-    let mut seen = vec![0.0; ROWS * COLUMNS];
-    let mut numbers = Numbers(7);
-    for _ in 0..DRAWN {
-        let sample = ggx.sample(v, numbers.pair(), sampler);
-        close(sample.pdf, ggx.pdf(sample.l, v, sampler), 1e-9);
-        seen[bin(sample.l)] += 1.0;
-    }
-    // Bins with little expected are counted together.
-    let (mut sum, mut freedom, mut rest) = (0.0, 0.0, (0.0, 0.0));
-    // What a bounded cap leaves out of the directions below the horizon has a density all the
-    // same: it is the one the directions above need.
-    let first = if sampler == Sampler::BoundedCap {
-        ROWS / 2 * COLUMNS
-    } else {
-        0
-    };
-    for (expected, seen) in expected.into_iter().zip(seen).skip(first) {
-        if expected < 10.0 {
-            rest = (rest.0 + expected, rest.1 + seen);
-        } else {
-            sum += (seen - expected) * (seen - expected) / expected;
-            freedom += 1.0;
-        }
-    }
-    if rest.0 > 10.0 {
-        sum += (rest.1 - rest.0) * (rest.1 - rest.0) / rest.0;
-        freedom += 1.0;
-    }
-    (sum, freedom)
-}
-
-#[test]
-fn samplers_draw_their_density() {
-    let surfaces = [
-        Ggx::new(0.35),
-        Ggx::new(1.0),
-        Ggx {
-            alpha_x: 0.3,
-            alpha_y: 0.8,
-        },
-    ];
-    for ggx in surfaces {
-        for cos in [1.0, 0.7, 0.15] {
-            for sampler in SAMPLERS {
-                let v = direction(cos, 0.4);
-                let (sum, freedom) = chi_square(ggx, v, sampler);
-                // Five standard deviations, and what the midpoint rule misses.
-                let bound = freedom + 5.0 * (2.0 * freedom).sqrt() + 0.1 * freedom;
-                assert!(sum < bound, "{ggx:?} {cos} {sampler:?}: {sum} of {freedom}");
-            }
-        }
     }
 }
 
