@@ -5,8 +5,9 @@ use std::fmt::Write as _;
 use std::io::{self, IsTerminal as _};
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
+use rayon::prelude::*;
 use tutor::check::{DrawCount, Report, looks, shaders};
-use tutor::{Finding, Severity};
+use tutor::{Finding, Lesson, Severity};
 
 use crate::cli::{Check, Folders, Format};
 use crate::exit::{Done, Failure};
@@ -38,6 +39,31 @@ pub fn run(folders: &Folders, args: &Check) -> Result<Done, Failure> {
     Ok(Done::found(wrong))
 }
 
+/// What computing finds in one lesson: its numbers, its shaders, its pictures.
+fn of_lesson(lesson: &Lesson) -> Report {
+    let sight = |picture: &str| crate::fingerprints::sight(lesson, picture, 0.0, 0.0);
+    let pictures = || {
+        let mut findings = check_seen(lesson);
+        // Where a bug shows is known when its picture was looked at.
+        findings.extend(looks::findings(lesson, sight));
+        findings
+    };
+    // What a lesson's shaders compute is known when they ran, each in a process of its own.
+    let ran = || {
+        shaders::runs(lesson)
+            .into_par_iter()
+            .flat_map_iter(|run| run.finding(&crate::shaders::run(run.job.clone())))
+            .collect::<Vec<_>>()
+    };
+    let (mut report, (ran, seen)) = rayon::join(
+        || tutor::check::report(lesson),
+        || rayon::join(ran, pictures),
+    );
+    report.findings.extend(ran);
+    report.findings.extend(seen);
+    report
+}
+
 /// What reading found, then what computing found, in the order of the files.
 fn report(shelf: &Shelf, whole: bool) -> Report {
     let mut findings: Vec<Finding> = shelf
@@ -45,28 +71,15 @@ fn report(shelf: &Shelf, whole: bool) -> Report {
         .iter()
         .flat_map(|file| file.findings.clone())
         .collect();
-    let lessons = shelf.lessons().map(AsRef::as_ref);
-    let computed = if whole {
-        tutor::check::report_all(lessons)
-    } else {
-        lessons
-            .map(tutor::check::report)
-            .fold(Report::default(), |mut all, one| {
-                all.findings.extend(one.findings);
-                all.draws.extend(one.draws);
-                all
-            })
-    };
-    findings.extend(computed.findings);
-    // What a lesson's shaders compute is known when they ran.
-    for run in shelf.lessons().flat_map(|lesson| shaders::runs(lesson)) {
-        findings.extend(run.finding(&crate::shaders::run(run.job.clone())));
+    let lessons: Vec<&Lesson> = shelf.lessons().map(AsRef::as_ref).collect();
+    let computed: Vec<Report> = lessons.par_iter().map(|lesson| of_lesson(lesson)).collect();
+    let mut draws = Vec::new();
+    for one in computed {
+        findings.extend(one.findings);
+        draws.extend(one.draws);
     }
-    findings.extend(shelf.lessons().flat_map(|lesson| check_seen(lesson)));
-    // Where a bug shows is known when its picture was looked at.
-    for lesson in shelf.lessons() {
-        let sight = |picture: &str| crate::fingerprints::sight(lesson, picture, 0.0, 0.0);
-        findings.extend(looks::findings(lesson, sight));
+    if whole {
+        findings.extend(tutor::check::together(&lessons));
     }
     let place = |finding: &Finding| {
         shelf
@@ -76,10 +89,7 @@ fn report(shelf: &Shelf, whole: bool) -> Report {
     };
     findings.sort_by_key(|finding| (place(finding), finding.start, finding.end));
     findings.dedup();
-    Report {
-        findings,
-        draws: computed.draws,
-    }
+    Report { findings, draws }
 }
 
 fn human(shelf: &Shelf, findings: &[Finding], draws: &[DrawCount]) -> Result<(), Failure> {

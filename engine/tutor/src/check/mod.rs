@@ -35,22 +35,15 @@ pub fn check(lesson: &Lesson) -> Vec<Finding> {
 
 /// What is wrong with lessons, each alone and all together.
 pub fn check_all(lessons: &[Lesson]) -> Vec<Finding> {
-    report_all(lessons).findings
+    let mut findings: Vec<Finding> = lessons.iter().flat_map(check).collect();
+    findings.extend(together(&lessons.iter().collect::<Vec<_>>()));
+    findings
 }
 
-/// What is wrong with lessons, each alone and all together, and how their exercises draw. What
-/// a lesson needs is looked for only where there are several: a file checked alone cannot know
-/// the others.
-pub fn report_all<'l>(lessons: impl IntoIterator<Item = &'l Lesson>) -> Report {
-    let lessons: Vec<&Lesson> = lessons.into_iter().collect();
-    let mut all = Report::default();
-    for lesson in &lessons {
-        let report = report(lesson);
-        all.findings.extend(report.findings);
-        all.draws.extend(report.draws);
-    }
-    all.findings.extend(names::together(&lessons));
-    all
+/// What is wrong between lessons: what one needs, and another has. Meant for all of a folder
+/// together: a file checked alone cannot know the others.
+pub fn together(lessons: &[&Lesson]) -> Vec<Finding> {
+    names::together(lessons)
 }
 
 /// What is wrong with one lesson, and how its exercises draw.

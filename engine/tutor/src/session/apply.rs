@@ -6,7 +6,6 @@ use super::event::{Event, Quote};
 use super::problem::{self, Problem, mix};
 use super::question::{Heard, Question, Second, Try};
 use super::screen::{Screen, faded_lines};
-use crate::judge::Verdict;
 use crate::view::Stage;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -104,24 +103,9 @@ impl Session {
                     tried.marks.insert(point.clone(), *said);
                 }
             }
-            Event::SelfMarked {
-                item,
-                attempt,
-                verdict,
-                met,
-                missed,
-                misconceptions,
-                slips,
-            } => {
+            Event::SelfMarked { item, attempt, .. } => {
                 if let Some(tried) = self.tried(item, *attempt) {
-                    tried.own = Some(Heard {
-                        verdict: Verdict::parse(verdict).unwrap_or(Verdict::Fail),
-                        met: met.clone(),
-                        missed: missed.clone(),
-                        misconceptions: misconceptions.clone(),
-                        slips: slips.clone(),
-                        unsure: Vec::new(),
-                    });
+                    tried.own = Heard::of(event);
                 }
             }
             Event::Finished { grade, words } => self.finished = Some((*grade, words.clone())),
@@ -213,16 +197,13 @@ impl Session {
             item,
             attempt,
             text,
-            verdict,
-            met,
-            missed,
-            misconceptions,
-            slips,
-            unsure,
-            judge: _,
             why,
+            ..
         } = event
         else {
+            return;
+        };
+        let Some(first) = Heard::of(event) else {
             return;
         };
         let question = self.question(item);
@@ -233,14 +214,7 @@ impl Session {
         question.draft.clear();
         question.tries.push(Try {
             text: text.clone(),
-            first: Heard {
-                verdict: Verdict::parse(verdict).unwrap_or(Verdict::Fail),
-                met: met.clone(),
-                missed: missed.clone(),
-                misconceptions: misconceptions.clone(),
-                slips: slips.clone(),
-                unsure: unsure.clone(),
-            },
+            first,
             why: why.clone(),
             second: None,
             turns: Vec::new(),
@@ -297,18 +271,14 @@ impl Session {
             attempt,
             about,
             rung,
-            asked: _,
             text,
-            verdict,
-            met,
-            missed,
-            misconceptions,
-            slips,
-            unsure,
-            judge: _,
             why,
+            ..
         } = event
         else {
+            return;
+        };
+        let Some(heard) = Heard::of(event) else {
             return;
         };
         let question = Asked {
@@ -321,14 +291,7 @@ impl Session {
             rung: *rung,
             text: text.clone(),
             why: why.clone(),
-            heard: Heard {
-                verdict: Verdict::parse(verdict).unwrap_or(Verdict::Fail),
-                met: met.clone(),
-                missed: missed.clone(),
-                misconceptions: misconceptions.clone(),
-                slips: slips.clone(),
-                unsure: unsure.clone(),
-            },
+            heard,
         };
         self.take_turn(item, *attempt, fits, Turn::Replied(reply));
     }
@@ -338,18 +301,15 @@ impl Session {
             item,
             attempt,
             settled,
-            verdict,
-            met,
-            missed,
-            misconceptions,
-            slips,
-            unsure,
             why,
             result,
             problem,
             ..
         } = event
         else {
+            return;
+        };
+        let Some(heard) = Heard::of(event) else {
             return;
         };
         if self.waiting.as_ref() == Some(&(item.clone(), *attempt)) {
@@ -360,14 +320,6 @@ impl Session {
         };
         // What was asked or marked meanwhile is not undone by an opinion that comes late.
         let in_time = tried.turns.is_empty() && tried.own.is_none() && tried.marks.is_empty();
-        let heard = Heard {
-            verdict: Verdict::parse(verdict).unwrap_or(Verdict::Fail),
-            met: met.clone(),
-            missed: missed.clone(),
-            misconceptions: misconceptions.clone(),
-            slips: slips.clone(),
-            unsure: unsure.clone(),
-        };
         let decided = |why: &&Quote| settled.contains(&why.id);
         tried.second = Some(Second {
             settled: (in_time && !settled.is_empty()).then_some(heard),

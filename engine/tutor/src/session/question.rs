@@ -1,7 +1,7 @@
 //! One explain-back question: what was answered, what the judge heard, what was marked.
 
 use super::dialogue::{Asked, Turn};
-use super::event::Quote;
+use super::event::{Event, Quote};
 use crate::judge::Verdict;
 use crate::lesson::{Explain, Lesson};
 use crate::rubric::Rubric;
@@ -60,6 +60,58 @@ pub(super) struct Heard {
 }
 
 impl Heard {
+    /// What an event of a log says of an answer; none of one that says nothing of that kind.
+    pub(super) fn of(event: &Event) -> Option<Heard> {
+        let none = Vec::new();
+        let (verdict, met, missed, misconceptions, slips, unsure) = match event {
+            Event::Explained {
+                verdict,
+                met,
+                missed,
+                misconceptions,
+                slips,
+                unsure,
+                ..
+            }
+            | Event::Replied {
+                verdict,
+                met,
+                missed,
+                misconceptions,
+                slips,
+                unsure,
+                ..
+            }
+            | Event::SecondOpinion {
+                verdict,
+                met,
+                missed,
+                misconceptions,
+                slips,
+                unsure,
+                ..
+            } => (verdict, met, missed, misconceptions, slips, unsure),
+            // A learner's own marking leaves nothing open.
+            Event::SelfMarked {
+                verdict,
+                met,
+                missed,
+                misconceptions,
+                slips,
+                ..
+            } => (verdict, met, missed, misconceptions, slips, &none),
+            _ => return None,
+        };
+        Some(Heard {
+            verdict: Verdict::parse(verdict).unwrap_or(Verdict::Fail),
+            met: met.clone(),
+            missed: missed.clone(),
+            misconceptions: misconceptions.clone(),
+            slips: slips.clone(),
+            unsure: unsure.clone(),
+        })
+    }
+
     /// Sorts what was heard by the rubric.
     pub(super) fn new(
         rubric: &Rubric,
