@@ -24,21 +24,26 @@ const RIGHT: &str = "    let a = roughness * roughness;
     let b = n_dot_h * n_dot_h * (a2 - 1.0) + 1.0;
     return a2 / (3.14159265 * b * b);";
 
-fn mark(bytes: &[u8]) -> Output {
+fn mark(item: &str, bytes: &[u8]) -> Output {
     let home = tempfile::tempdir().expect("a folder");
     let file = home.path().join("d.wgsl");
     fs::write(&file, bytes).expect("a file");
     let answer = format!("@{}", file.display());
     run_with(
         home.path(),
-        &["mark", ITEM, "--answer", &answer, "--json"],
+        &["mark", item, "--answer", &answer, "--json"],
         "",
     )
 }
 
 #[track_caller]
 fn check_bytes(bytes: &[u8], result: &str, mistake: Option<&str>, says: &str) {
-    let output = mark(bytes);
+    check_item(ITEM, bytes, result, mistake, says);
+}
+
+#[track_caller]
+fn check_item(item: &str, bytes: &[u8], result: &str, mistake: Option<&str>, says: &str) {
+    let output = mark(item, bytes);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let marked: Value = serde_json::from_str(&stdout(&output)).expect("JSON");
     let said = marked["says"].as_str().expect("a sentence");
@@ -91,6 +96,42 @@ fn a_shader_is_marked_by_what_it_computes() {
 }
 
 #[test]
+fn whatever_is_right_between_directions_is_right() {
+    // F's cosine, as a body of `specular` has it.
+    let rows = [
+        ("sqrt(0.5 + 0.5 * l_dot_v)", "correct", None),
+        (
+            "(1.0 + l_dot_v) / sqrt(2.0 + 2.0 * l_dot_v)",
+            "correct",
+            None,
+        ),
+        ("cos(acos(l_dot_v) / 2.0)", "correct", None),
+        ("(n_dot_l + n_dot_v) / (2.0 * n_dot_h)", "correct", None),
+        ("n_dot_v", "mistake", Some("n-dot-v")),
+        ("l_dot_v", "mistake", Some("half-angle-forgotten")),
+        ("1.0 + l_dot_v", "mistake", Some("length-forgotten")),
+    ];
+    for (cosine, result, mistake) in rows {
+        let source = format!(
+            "fn specular(n_dot_l: f32, n_dot_v: f32, n_dot_h: f32, l_dot_v: f32,
+            roughness: f32, f0: f32) -> f32 {{
+    let alpha = roughness * roughness;
+    let f = f_schlick(f0, {cosine});
+    return d_ggx(n_dot_h, alpha) * v_ggx(n_dot_l, n_dot_v, alpha) * f * n_dot_l;
+}}
+"
+        );
+        check_item(
+            "schlick-fresnel/mend",
+            source.as_bytes(),
+            result,
+            mistake,
+            "",
+        );
+    }
+}
+
+#[test]
 fn a_text_that_wants_to_end_the_tutor_is_marked() {
     let endless = "    loop { if roughness > 2.0 { break; } }\n    return 1.0;";
     check(
@@ -119,7 +160,7 @@ fn a_text_that_wants_to_end_the_tutor_is_marked() {
     check(&d(&parens), "invalid", None, "nested too deep");
     // Read without complaint, and too much for whoever reads on.
     let sum = format!("    return {}1.0;", "n_dot_h + ".repeat(6_000));
-    let output = mark(d(&sum).as_bytes());
+    let output = mark(ITEM, d(&sum).as_bytes());
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let array = "    var a: array<f32, 100000000>;\n    return a[3];";
     check(&d(array), "invalid", None, "100,000,000 numbers");
@@ -166,7 +207,7 @@ fn what_runs_too_long_is_ended_by_the_clock() {
     let slow = "    var s = 0.0;
     for (var i = 0; i < 15000; i++) { s += 1e-30; }
     return s;";
-    let output = mark(d(slow).as_bytes());
+    let output = mark(ITEM, d(slow).as_bytes());
     let marked: Value = serde_json::from_str(&stdout(&output)).expect("JSON");
     let said = marked["says"].as_str().expect("a sentence");
     // Which limit it meets first depends on the machine.

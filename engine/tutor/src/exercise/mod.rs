@@ -3,6 +3,7 @@
 //! Everything here is pure: the same lesson and seed give the same draw on every machine.
 
 mod chain;
+mod cosines;
 mod draw;
 mod hint;
 pub mod look;

@@ -5,6 +5,7 @@
 use formula::{Digits, Library, format_number};
 use serde::{Deserialize, Serialize};
 
+use super::cosines::Cosines;
 use super::plan::{Plan, PlanMistake, Point, steps_of};
 use super::random::Random;
 use super::{Marking, OffBy};
@@ -14,6 +15,8 @@ use crate::lesson::{Exercise, Lesson, ShaderTask, Task};
 const RANDOM_POINTS: usize = 96;
 /// Corners of the range, at most.
 const MOST_CORNERS: usize = 64;
+/// Draws for each of them, at most: ranges may leave few directions.
+const MOST_TRIES: usize = 20;
 /// Numbers nearer to zero than this are zero: f32 keeps no relative precision in differences.
 const ZERO: f64 = 1e-7;
 
@@ -367,7 +370,7 @@ impl<'l> Trial<'l> {
 }
 
 /// Points worth trying: the corners of the range, then random ones; a third of those crowd at
-/// the low ends, where divisions show.
+/// the low ends, where divisions show. Cosines that belong together stay together.
 fn candidates(exercise: &Exercise, random: &mut Random) -> Vec<Vec<f64>> {
     let variables = &exercise.draw;
     let pick = |at: usize, index: usize| {
@@ -380,7 +383,21 @@ fn candidates(exercise: &Exercise, random: &mut Random) -> Vec<Vec<f64>> {
     let all_corners = 1_usize
         .checked_shl(variables.len() as u32)
         .unwrap_or(usize::MAX);
-    let mut points = Vec::new();
+    let cosines = Cosines::among(variables.iter().map(|variable| &*variable.name.text));
+    let ranges: Vec<(f64, f64)> = variables
+        .iter()
+        .map(|variable| {
+            let values = variable.values.iter();
+            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+                (low.min(*value), high.max(*value))
+            })
+        })
+        .collect();
+    let settle = |mut point: Vec<f64>| match &cosines {
+        Some(cosines) => cosines.settle(&mut point, &ranges).then_some(point),
+        None => Some(point),
+    };
+    let mut points: Vec<Vec<f64>> = Vec::new();
     for corner in 0..all_corners.min(MOST_CORNERS) {
         let bits = match all_corners <= MOST_CORNERS {
             true => corner,
@@ -390,9 +407,15 @@ fn candidates(exercise: &Exercise, random: &mut Random) -> Vec<Vec<f64>> {
             0 => pick(at, 0),
             _ => pick(at, usize::MAX),
         });
-        points.push(ends.collect());
+        // Corners may come to lie on each other.
+        let corner = settle(ends.collect()).filter(|corner| !points.contains(corner));
+        points.extend(corner);
     }
-    for number in 0..RANDOM_POINTS {
+    let enough = points.len() + RANDOM_POINTS;
+    for number in 0..RANDOM_POINTS * MOST_TRIES {
+        if points.len() == enough {
+            break;
+        }
         let point = (0..variables.len()).map(|at| {
             let count = variables[at].values.len();
             let mut index = random.below(count);
@@ -401,7 +424,7 @@ fn candidates(exercise: &Exercise, random: &mut Random) -> Vec<Vec<f64>> {
             }
             pick(at, index)
         });
-        points.push(point.collect());
+        points.extend(settle(point.collect()));
     }
     points
 }
