@@ -92,9 +92,24 @@ impl Cpu {
     }
 
     pub fn evaluate(&self, samples: &Samples) -> Values {
+        let mut values = Values::default();
+        self.evaluate_into(samples, &mut values);
+        values
+    }
+
+    /// The same into memory that is there already.
+    pub fn evaluate_into(&self, samples: &Samples, values: &mut Values) {
         let count = samples.len();
-        let mut right = vec![0.0; count];
-        let mut second = vec![0.0; count];
+        values.resize(count);
+        let Values {
+            right,
+            wrong,
+            ratio,
+        } = values;
+        let second = match self.second_is_ratio {
+            true => ratio,
+            false => wrong,
+        };
         for start in (0..count).step_by(BLOCK) {
             let range = start..(start + BLOCK).min(count);
             let inputs = samples.inputs(&range);
@@ -105,8 +120,8 @@ impl Cpu {
             });
         }
         match self.second_is_ratio {
-            false => Values::of_both(right, second),
-            true => Values::of_ratio(right, second),
+            true => values.multiply(),
+            false => values.divide(),
         }
     }
 

@@ -2,14 +2,12 @@
 //! grid of points in a pixel that its edge crosses, nowhere else.
 
 use crate::geometry::{Geometry, Point, Stretches};
+use crate::places::{Places, Stretch};
 use crate::scene::{VARYING, column};
 use std::ops::Range;
 
 /// Lines in a pixel that an edge crosses, and points on each where it is the outline.
-const EDGE_GRID: usize = 4;
-
-/// Up to this share of a line's half, nothing grows as it does towards the outline.
-const INNER: f64 = 0.95;
+pub(crate) const EDGE_GRID: usize = 4;
 
 /// A square panel of `size` pixels with the sphere in its middle.
 #[derive(Clone, Copy, Debug)]
@@ -167,24 +165,40 @@ impl Samples {
         }
     }
 
-    /// [`Samples::push`] of places that follow each other on a line, at once where that is
-    /// possible.
+    /// [`Samples::push`] of places at the same height `y`, at once where that is possible.
     fn push_line(
         &mut self,
         wanted: &[bool; VARYING.len()],
         geometry: &Geometry,
-        places: impl Iterator<Item = [f64; 3]> + Clone,
+        (x, y, q): (&[f64], f64, &[f64]),
     ) {
         let simple = geometry.is_distant() && wanted[column::COS_PHI..].iter().all(|it| !it);
+        let places = x.iter().zip(q).map(|(&x, &q)| [x, y, q]);
         if simple {
             let [n_dot_l, n_dot_v, n_dot_h, ..] = &mut self.columns;
             n_dot_l.extend(places.clone().map(|n| geometry.distant_n_dot_l(n)));
-            n_dot_v.extend(places.clone().map(|n| n[2]));
+            n_dot_v.extend_from_slice(q);
             n_dot_h.extend(places.map(|n| geometry.distant_n_dot_h(n)));
         } else {
             for [x, y, q] in places {
                 self.push(wanted, &geometry.at(x, y, q));
             }
+        }
+    }
+
+    /// [`Samples::push`] of a place that stands for this share of a pixel, if it is lit and seen.
+    #[inline]
+    fn push_share(
+        &mut self,
+        wanted: &[bool; VARYING.len()],
+        geometry: &Geometry,
+        [x, y, q]: [f64; 3],
+        share: f32,
+    ) {
+        let point = geometry.at(x, y, q);
+        if point.n_dot_l > 0.0 && point.n_dot_v > 0.0 {
+            self.push(wanted, &point);
+            self.shares.push(share);
         }
     }
 
@@ -207,6 +221,8 @@ impl Samples {
 struct Row {
     /// The lines within the row on which pixels at an edge are sampled, and what is lit of them.
     lines: [(f64, Stretches); EDGE_GRID],
+    /// Half of what the sphere has of each.
+    rhos: [f64; EDGE_GRID],
     /// Columns that the lens touches, and among them those it fills.
     touched: Stretches,
     filled: Stretches,
@@ -224,7 +240,7 @@ impl Panel {
     }
 
     /// The same upwards.
-    fn up(&self, pixels: f64) -> f64 {
+    pub fn up(&self, pixels: f64) -> f64 {
         -self.unit(pixels)
     }
 
@@ -235,16 +251,18 @@ impl Panel {
     }
 
     /// The samples of the rows from `first` up to, not including, `last` under one light.
+    #[cfg(test)]
     pub fn samples(&self, geometry: &Geometry, first: usize, last: usize) -> Samples {
-        let mut samples = Samples::default();
-        self.fill(&mut samples, geometry, first, last);
+        let (mut samples, mut places) = (Samples::default(), Places::default());
+        places.start(self, first..last);
+        self.fill(&mut samples, &mut places, geometry);
         samples
     }
 
-    /// [`Panel::samples`] into memory that is there already.
-    pub fn fill(&self, samples: &mut Samples, geometry: &Geometry, first: usize, last: usize) {
+    /// The samples of the rows that the places were started with, under one light.
+    pub fn fill(&self, samples: &mut Samples, places: &mut Places, geometry: &Geometry) {
         samples.start(geometry);
-        for row in first..last {
+        for row in places.rows() {
             let reach = self.row(geometry, row);
             let columns = |span: &(f64, f64)| (span.0 as usize)..(span.1 as usize);
             let mut next = 0;
@@ -256,15 +274,16 @@ impl Panel {
                         continue;
                     }
                     for column in next..filled.start {
-                        self.edge(samples, geometry, &reach, column, row);
+                        self.edge(samples, places, geometry, &reach, (column, row));
                     }
-                    self.line(samples, geometry, row, filled.clone());
+                    let line = places.line(self, row, filled.clone());
+                    samples.push_line(&self.columns, geometry, line);
                     let (pixel, count) = (self.pixel(filled.start, row), filled.len() as u32);
                     samples.spans.push(Span::Pixels { pixel, count });
                     next = filled.end;
                 }
                 for column in next..touched.end {
-                    self.edge(samples, geometry, &reach, column, row);
+                    self.edge(samples, places, geometry, &reach, (column, row));
                 }
                 next = touched.end;
             }
@@ -297,6 +316,7 @@ impl Panel {
             let y = at(offset(i));
             (y, geometry.lit(y))
         });
+        let rhos = lines.each_ref().map(|(y, _)| (1.0 - y * y).sqrt());
         let pixels = |unit: f64| unit * self.outline() + self.size as f64 / 2.0;
         let clamp = |at: f64| at.clamp(0.0, self.size as f64);
         let whole = |stretches: &Stretches, outwards: bool| {
@@ -316,6 +336,7 @@ impl Panel {
                 touched: whole(&touched, true),
                 filled: whole(&filled, false),
                 lines,
+                rhos,
             };
         }
         let mut touched = Stretches::default();
@@ -326,27 +347,14 @@ impl Panel {
         }
         Row {
             lines,
+            rhos,
             touched,
             filled,
         }
     }
 
-    /// One sample in the middle of each pixel of a row; what is outside the sphere counts as its
-    /// middle.
-    fn line(&self, samples: &mut Samples, geometry: &Geometry, row: usize, columns: Range<usize>) {
-        let y = self.up(row as f64 + 0.5);
-        let place = |column: usize| {
-            let x = self.unit(column as f64 + 0.5);
-            let q2 = 1.0 - (x * x + y * y);
-            match q2 >= 0.0 {
-                true => [x, y, q2.sqrt()],
-                false => [0.0, 0.0, 1.0],
-            }
-        };
-        samples.push_line(&self.columns, geometry, columns.map(place));
-    }
-
-    /// Pixels that nobody sees: shaded to show what skipping saves, and counted for nothing.
+    /// Pixels that nobody sees: shaded to show what skipping saves, and counted for nothing. What
+    /// is outside the sphere counts as its middle.
     fn unseen(
         &self,
         samples: &mut Samples,
@@ -354,35 +362,58 @@ impl Panel {
         row: usize,
         columns: Range<usize>,
     ) {
-        if self.everywhere && !columns.is_empty() {
-            let count = columns.len() as u32;
-            self.line(samples, geometry, row, columns);
-            samples.spans.push(Span::Unseen { count });
+        if !self.everywhere || columns.is_empty() {
+            return;
         }
+        let count = columns.len() as u32;
+        let y = self.up(row as f64 + 0.5);
+        for column in columns {
+            let x = self.unit(column as f64 + 0.5);
+            let q2 = 1.0 - (x * x + y * y);
+            let [x, y, q] = match q2 >= 0.0 {
+                true => [x, y, q2.sqrt()],
+                false => [0.0, 0.0, 1.0],
+            };
+            samples.push(&self.columns, &geometry.at(x, y, q));
+        }
+        samples.spans.push(Span::Unseen { count });
     }
 
-    /// A pixel that an edge of the lens crosses: the mean over its lit part.
-    ///
-    /// On each of a few lines the lit stretches within the pixel are sampled evenly in the angle
-    /// t of x = ρ sin t. There dx = q dt, and q falls to 0 at the outline as N·V does, so that
-    /// what grows as 1/(N·V) towards the rim is averaged without error: points spread evenly in
-    /// x would hit or miss the growth by chance.
+    /// A pixel that an edge of the lens crosses: the mean over its lit part, line by line.
     fn edge(
         &self,
         samples: &mut Samples,
+        places: &mut Places,
         geometry: &Geometry,
         reach: &Row,
-        column: usize,
-        row: usize,
+        (column, row): (usize, usize),
     ) {
         let before = samples.shares.len();
         let (left, right) = (self.unit(column as f64), self.unit(column as f64 + 1.0));
-        let whole = (right - left) * EDGE_GRID as f64;
-        for &(y, ref line) in &reach.lines {
+        for (index, &(y, ref line)) in reach.lines.iter().enumerate() {
+            let rho = reach.rhos[index];
             for &(from, to) in line.as_slice() {
-                let (from, to) = (from.max(left), to.min(right));
-                if from < to {
-                    self.stretch(samples, geometry, (y, from, to), whole);
+                let stretch = Stretch {
+                    rho,
+                    from: from.max(left),
+                    to: to.min(right),
+                    whole: (right - left) * EDGE_GRID as f64,
+                };
+                if stretch.from >= stretch.to {
+                    continue;
+                }
+                let mut push = |place: [f64; 3], share: f32| {
+                    samples.push_share(&self.columns, geometry, place, share);
+                };
+                // What the sphere has of the line, whatever the light.
+                let uncut = stretch.from == left.max(-rho) && stretch.to == right.min(rho);
+                if uncut && stretch.grows() {
+                    let known = places.edge((column, row), index, &stretch);
+                    known
+                        .iter()
+                        .for_each(|&(x, q, share)| push([x, y, q], share));
+                } else {
+                    stretch.sample(|x, q, share| push([x, y, q], share));
                 }
             }
         }
@@ -392,39 +423,6 @@ impl Panel {
             samples.spans.push(Span::Edge { pixel, count });
         } else {
             self.unseen(samples, geometry, row, column..column + 1);
-        }
-    }
-
-    /// Samples one stretch of a line; a stretch as long as `whole` would stand for the whole
-    /// pixel.
-    ///
-    /// Only at the outline does anything grow: away from it the middle of the stretch tells its
-    /// mean.
-    fn stretch(
-        &self,
-        samples: &mut Samples,
-        geometry: &Geometry,
-        (y, from, to): (f64, f64, f64),
-        whole: f64,
-    ) {
-        let rho = (1.0 - y * y).sqrt();
-        let mut push = |x: f64, q: f64, share: f64| {
-            let point = geometry.at(x, y, q);
-            if point.n_dot_l > 0.0 && point.n_dot_v > 0.0 {
-                samples.push(&self.columns, &point);
-                samples.shares.push(share as f32);
-            }
-        };
-        // In units of the half line: a stretch that stays this far from the outline is even.
-        if from.abs().max(to.abs()) < INNER * rho {
-            let x = f64::midpoint(from, to);
-            push(x, ((rho - x) * (rho + x)).sqrt(), (to - from) / whole);
-            return;
-        }
-        let places = even(unit(from, rho), unit(to, rho)).map(|(sin, cos)| (rho * sin, rho * cos));
-        let weight: f64 = places.iter().map(|(_, q)| q).sum();
-        for (x, q) in places {
-            push(x, q, (to - from) / whole * q / weight);
         }
     }
 }
@@ -455,30 +453,6 @@ fn plain(
         stretches
     };
     (filled.0 < filled.1).then(|| (stretch(touched), stretch(filled)))
-}
-
-/// Sine and cosine of the angle t of a place x = ρ sin t.
-fn unit(x: f64, rho: f64) -> (f64, f64) {
-    let x = x.clamp(-rho, rho);
-    (x / rho, ((rho - x) * (rho + x)).sqrt() / rho)
-}
-
-/// Sines and cosines in the middles of four equal parts of the angle from `a` to `b`, which is
-/// less than half a turn: each direction between two is halfway.
-fn even(a: (f64, f64), b: (f64, f64)) -> [(f64, f64); EDGE_GRID] {
-    let between = |a: (f64, f64), b: (f64, f64)| {
-        let (x, y) = (a.0 + b.0, a.1 + b.1);
-        let length = (x * x + y * y).sqrt();
-        (x / length, y / length)
-    };
-    let half = between(a, b);
-    let quarters = [between(a, half), between(half, b)];
-    [
-        between(a, quarters[0]),
-        between(quarters[0], half),
-        between(half, quarters[1]),
-        between(quarters[1], b),
-    ]
 }
 
 #[cfg(test)]

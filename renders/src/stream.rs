@@ -246,7 +246,7 @@ impl Window {
         }
         self.pixels += more.pixels;
         self.points += more.points;
-        self.shaded.append(&more);
+        self.shaded.append(more);
     }
 
     /// Drops the rows before `row`.
