@@ -69,6 +69,7 @@ pub fn figure(seen: &Visibility, name: &str) -> Option<f64> {
         "rim_over_highlight_wrong" => seen.rim_over_highlight.0,
         "rim_over_highlight_right" => seen.rim_over_highlight.1,
         "terminator_step" => seen.terminator_step,
+        "growth_per_doubling" => seen.growth_per_doubling,
         "brighter_by_8" => seen.changed_8.0,
         "dimmer_by_8" => seen.changed_8.1,
         _ => return None,

@@ -546,12 +546,12 @@ fn notes(fingerprint: &Fingerprint<'_>, profile: &Profile, exposure: f64) -> Vec
             "exposure × {exposure}, the same for both: the brightest correct point is at {share} % of white; brighter than white is cut off"
         ),
     ];
-    match profile.rim_growth {
-        growth if growth > 1.9 => notes.push(
-            "at the rim the buggy value grows as 1/(N·V)²: the light it adds has no limit, it grows with the picture's size"
-                .to_owned(),
-        ),
-        growth if growth > 0.5 => notes.push(
+    match profile.growth {
+        growth if growth.is_endless() => notes.push(format!(
+            "at the rim the buggy value grows as 1/(N·V)²: its mean over the disc has no limit, it rises by {} with every doubling of the picture's size",
+            formula::format_number(growth.per_doubling, formula::Digits::Significant(2))
+        )),
+        growth if growth.power > 0.5 => notes.push(
             "at the rim the buggy value grows as 1/(N·V), without bound: the outermost pixels get brighter as the picture gets larger"
                 .to_owned(),
         ),

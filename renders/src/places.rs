@@ -4,7 +4,7 @@ use crate::sample::{EDGE_GRID, Panel};
 use std::ops::Range;
 
 /// Up to this share of a line's half, nothing grows as it does towards the outline.
-const INNER: f64 = 0.95;
+pub(crate) const INNER: f64 = 0.95;
 
 /// x, q and the share of its pixel that a sample at the outline stands for.
 type Sample = (f64, f64, f32);
@@ -150,25 +150,27 @@ impl Stretch {
 }
 
 /// Sine and cosine of the angle t of a place x = ρ sin t.
-fn unit(x: f64, rho: f64) -> (f64, f64) {
+pub(crate) fn unit(x: f64, rho: f64) -> (f64, f64) {
     let x = x.clamp(-rho, rho);
     (x / rho, ((rho - x) * (rho + x)).sqrt() / rho)
 }
 
 /// Sines and cosines in the middles of four equal parts of the angle from `a` to `b`, which is
-/// less than half a turn: each direction between two is halfway.
+/// less than half a turn.
 fn even(a: (f64, f64), b: (f64, f64)) -> [(f64, f64); EDGE_GRID] {
-    let between = |a: (f64, f64), b: (f64, f64)| {
-        let (x, y) = (a.0 + b.0, a.1 + b.1);
-        let length = (x * x + y * y).sqrt();
-        (x / length, y / length)
-    };
-    let half = between(a, b);
-    let quarters = [between(a, half), between(half, b)];
+    let half = halfway(a, b);
+    let quarters = [halfway(a, half), halfway(half, b)];
     [
-        between(a, quarters[0]),
-        between(quarters[0], half),
-        between(half, quarters[1]),
-        between(quarters[1], b),
+        halfway(a, quarters[0]),
+        halfway(quarters[0], half),
+        halfway(half, quarters[1]),
+        halfway(quarters[1], b),
     ]
+}
+
+/// The direction halfway between two that are less than half a turn apart.
+pub(crate) fn halfway(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
+    let (x, y) = (a.0 + b.0, a.1 + b.1);
+    let length = (x * x + y * y).sqrt();
+    (x / length, y / length)
 }

@@ -6,7 +6,7 @@ use crate::plan::Plan;
 use crate::probe::{Place, Probe, Probed};
 use crate::shade::luminance;
 use crate::{Fingerprint, Precision};
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::{FRAC_PI_2, LN_2, TAU};
 
 /// One point of the equator.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,9 +91,8 @@ pub(crate) fn at_angles(probe: &Probe<'_>, angles: &[f64]) -> Vec<ProfilePoint> 
 /// A dense profile, kept to draw the curves and to choose the exposure.
 pub(crate) struct Profile {
     pub points: Vec<ProfilePoint>,
-    /// The power of 1/(N·V) with which the wrong value grows towards the rim: 0 where it is
-    /// finite there, 2 where its sum over the picture is not.
-    pub rim_growth: f64,
+    /// What the wrong value does towards the rim.
+    pub growth: Growth,
     /// The greatest correct value of any channel that was met.
     brightest: f64,
 }
@@ -111,7 +110,7 @@ impl Profile {
         };
         Self {
             points,
-            rim_growth: rim_growth(&probe),
+            growth: growth(&probe),
             brightest,
         }
     }
@@ -173,13 +172,36 @@ fn brightest(probe: &Probe<'_>) -> f64 {
     finite(probe.at(&places).iter().flat_map(|probed| probed.right))
 }
 
-/// The greatest power of 1/(N·V) with which the wrong value grows towards the rim, of some
-/// places around it.
+/// How the wrong value grows towards the rim.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Growth {
+    /// The greatest power of 1/(N·V) with which it does: 0 where it is finite there, 2 where its
+    /// mean over the disc is not.
+    pub power: f64,
+    /// By how much its mean over the disc rises with every doubling of the picture's size; 0 where
+    /// the mean is finite.
+    pub per_doubling: f64,
+}
+
+impl Growth {
+    /// Whether the mean over the disc has no limit.
+    pub fn is_endless(&self) -> bool {
+        self.power > 1.9
+    }
+}
+
+/// From some places around the rim.
+///
+/// With q = √(1 − r²) the area of the disc is r dr dφ = q dq dφ, so that what goes as K(φ)/q² adds
+/// K/π ∫ dφ ln(1/q₀) to the mean over the disc. A pixel reaches to q₀ ∝ 1/√size: twice the size
+/// adds the mean of K over φ, times ln 2.
 ///
 /// None of them is where a distant light's terminator meets the rim: any value that grows with
 /// 1/(N·L·N·V) does so there as the square, but in one point, which adds up to nothing.
-fn rim_growth(probe: &Probe<'_>) -> f64 {
+pub(crate) fn growth(probe: &Probe<'_>) -> Growth {
     const AROUND: usize = 16;
+    const FAR: f64 = 1e-4;
+    const NEAR: f64 = 1e-5;
     let turn = probe.main().turn_angle();
     let ring = |q: f64| {
         let radius = (1.0 - q * q).sqrt();
@@ -189,10 +211,19 @@ fn rim_growth(probe: &Probe<'_>) -> f64 {
             [radius * angle.cos(), radius * angle.sin(), q]
         })
     };
-    let places: Vec<Place> = [1e-4, 1e-5].into_iter().flat_map(ring).collect();
+    let places: Vec<Place> = [FAR, NEAR].into_iter().flat_map(ring).collect();
     let probed = probe.at(&places);
     let (far, near) = probed.split_at(AROUND);
-    let growth =
-        |(far, near): (&Probed, &Probed)| (luminance(&near.wrong) / luminance(&far.wrong)).log10();
-    finite(far.iter().zip(near).map(growth))
+    let power = |(far, near): (&Probed, &Probed)| {
+        (luminance(&near.wrong) / luminance(&far.wrong)).ln() / (FAR / NEAR).ln()
+    };
+    let mut growth = Growth {
+        power: finite(far.iter().zip(near).map(power)),
+        per_doubling: 0.0,
+    };
+    if growth.is_endless() {
+        let coefficients = near.iter().map(|it| luminance(&it.wrong) * NEAR * NEAR);
+        growth.per_doubling = LN_2 * coefficients.sum::<f64>() / AROUND as f64;
+    }
+    growth
 }

@@ -2,7 +2,7 @@
 //! grid of points in a pixel that its edge crosses, nowhere else.
 
 use crate::geometry::{Geometry, Point, Stretches};
-use crate::places::{Places, Stretch};
+use crate::places::{INNER, Places, Stretch, halfway, unit};
 use crate::scene::{VARYING, column};
 use std::ops::Range;
 
@@ -216,13 +216,43 @@ impl Samples {
     }
 }
 
+/// A line on which pixels at an edge are sampled; it stands for a band of a quarter of the row.
+#[derive(Clone, Copy, Default)]
+struct Line {
+    y: f64,
+    /// Half of what the sphere has of it.
+    rho: f64,
+    /// The share of the band that lies on the sphere.
+    share: f64,
+    /// What is lit of the line.
+    lit: Stretches,
+}
+
+impl Line {
+    /// The line for the band between two heights. At the top and the bottom of the sphere it is in
+    /// the middle of the angle rather than of the height, for the reason in [`Stretch::sample`].
+    fn of(geometry: &Geometry, from: f64, to: f64) -> Self {
+        let (y, share) = if from.abs().max(to.abs()) < INNER {
+            (f64::midpoint(from, to), 1.0)
+        } else {
+            let (low, high) = (from.clamp(-1.0, 1.0), to.clamp(-1.0, 1.0));
+            let (y, _) = halfway(unit(low, 1.0), unit(high, 1.0));
+            (y, (high - low) / (to - from))
+        };
+        let lit = match share > 0.0 {
+            true => geometry.lit(y),
+            false => Stretches::default(),
+        };
+        let rho = (1.0 - y * y).sqrt();
+        Self { y, rho, share, lit }
+    }
+}
+
 /// What a light reaches in one row of pixels.
 #[derive(Default)]
 struct Row {
-    /// The lines within the row on which pixels at an edge are sampled, and what is lit of them.
-    lines: [(f64, Stretches); EDGE_GRID],
-    /// Half of what the sphere has of each.
-    rhos: [f64; EDGE_GRID],
+    /// The lines within the row on which pixels at an edge are sampled.
+    lines: [Line; EDGE_GRID],
     /// Columns that the lens touches, and among them those it fills.
     touched: Stretches,
     filled: Stretches,
@@ -304,19 +334,15 @@ impl Panel {
         }
         // The lower half is walked upwards, so that a pixel and its mirror image sum the same
         // numbers in the same order and agree to the last bit.
-        let offset = |i: usize| {
+        let lines: [Line; EDGE_GRID] = std::array::from_fn(|i| {
             let i = if 2 * row < self.size {
                 i
             } else {
                 EDGE_GRID - 1 - i
             };
-            (i as f64 + 0.5) / EDGE_GRID as f64
-        };
-        let lines: [(f64, Stretches); EDGE_GRID] = std::array::from_fn(|i| {
-            let y = at(offset(i));
-            (y, geometry.lit(y))
+            let part = |i: usize| i as f64 / EDGE_GRID as f64;
+            Line::of(geometry, at(part(i + 1)), at(part(i)))
         });
-        let rhos = lines.each_ref().map(|(y, _)| (1.0 - y * y).sqrt());
         let pixels = |unit: f64| unit * self.outline() + self.size as f64 / 2.0;
         let clamp = |at: f64| at.clamp(0.0, self.size as f64);
         let whole = |stretches: &Stretches, outwards: bool| {
@@ -336,18 +362,16 @@ impl Panel {
                 touched: whole(&touched, true),
                 filled: whole(&filled, false),
                 lines,
-                rhos,
             };
         }
         let mut touched = Stretches::default();
         let mut filled = whole(&borders[0], false).and(&whole(&borders[1], false));
-        for (_, line) in &lines {
-            touched = touched.or(&whole(line, true));
-            filled = filled.and(&whole(line, false));
+        for line in &lines {
+            touched = touched.or(&whole(&line.lit, true));
+            filled = filled.and(&whole(&line.lit, false));
         }
         Row {
             lines,
-            rhos,
             touched,
             filled,
         }
@@ -390,14 +414,14 @@ impl Panel {
     ) {
         let before = samples.shares.len();
         let (left, right) = (self.unit(column as f64), self.unit(column as f64 + 1.0));
-        for (index, &(y, ref line)) in reach.lines.iter().enumerate() {
-            let rho = reach.rhos[index];
-            for &(from, to) in line.as_slice() {
+        for (index, line) in reach.lines.iter().enumerate() {
+            let rho = line.rho;
+            for &(from, to) in line.lit.as_slice() {
                 let stretch = Stretch {
                     rho,
                     from: from.max(left),
                     to: to.min(right),
-                    whole: (right - left) * EDGE_GRID as f64,
+                    whole: (right - left) * EDGE_GRID as f64 / line.share,
                 };
                 if stretch.from >= stretch.to {
                     continue;
@@ -411,9 +435,9 @@ impl Panel {
                     let known = places.edge((column, row), index, &stretch);
                     known
                         .iter()
-                        .for_each(|&(x, q, share)| push([x, y, q], share));
+                        .for_each(|&(x, q, share)| push([x, line.y, q], share));
                 } else {
-                    stretch.sample(|x, q, share| push([x, y, q], share));
+                    stretch.sample(|x, q, share| push([x, line.y, q], share));
                 }
             }
         }
@@ -429,17 +453,14 @@ impl Panel {
 
 /// What is touched and what is filled where every line has one stretch and all overlap: nearly
 /// everywhere.
-fn plain(
-    lines: &[(f64, Stretches); EDGE_GRID],
-    borders: &[Stretches; 2],
-) -> Option<(Stretches, Stretches)> {
+fn plain(lines: &[Line; EDGE_GRID], borders: &[Stretches; 2]) -> Option<(Stretches, Stretches)> {
     let one = |stretches: &Stretches| match stretches.as_slice() {
         [only] => Some(*only),
         _ => None,
     };
-    let (mut touched, mut filled) = (one(&lines[0].1)?, one(&lines[0].1)?);
-    for (_, line) in &lines[1..] {
-        let (from, to) = one(line)?;
+    let (mut touched, mut filled) = (one(&lines[0].lit)?, one(&lines[0].lit)?);
+    for line in &lines[1..] {
+        let (from, to) = one(&line.lit)?;
         touched = (touched.0.min(from), touched.1.max(to));
         filled = (filled.0.max(from), filled.1.min(to));
     }

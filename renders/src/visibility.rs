@@ -4,6 +4,7 @@ use crate::colour::EncodeTable;
 use crate::cpu::Cpu;
 use crate::error::Error;
 use crate::probe::{Place, Probe, Probed};
+use crate::profile::growth;
 use crate::sample::Panel;
 use crate::shade::{Engine, Job, Shaded, luminance, shade};
 use crate::{Fingerprint, Options, Precision};
@@ -31,6 +32,9 @@ pub struct Visibility {
     /// What the wrong value jumps by where the light ends, over its own highlight: 0 where it
     /// fades out as it should, or where the light stands behind the eye and has no terminator.
     pub terminator_step: f64,
+    /// By how much the mean of the buggy radiance over the disc rises with every doubling of the
+    /// picture's size, where it grows towards the rim as 1/(N·V)² and so has no limit; else 0.
+    pub growth_per_doubling: f64,
     /// Share of the lit pixels whose sRGB value, at the picture's exposure, changes by more than
     /// 8 of 255: upwards, and downwards.
     pub changed_8: (f64, f64),
@@ -44,6 +48,7 @@ impl Visibility {
         ratio_at_highlight: f64::NAN,
         rim_over_highlight: (f64::NAN, f64::NAN),
         terminator_step: f64::NAN,
+        growth_per_doubling: f64::NAN,
         changed_8: (f64::NAN, f64::NAN),
     };
 }
@@ -71,6 +76,7 @@ pub(crate) fn measure(fingerprint: &Fingerprint<'_>, cpu: &Cpu, tally: &Tally) -
         } else {
             0.0
         },
+        growth_per_doubling: growth(&probe).per_doubling,
         changed_8: (
             share(tally.brighter as f64, lit_pixels),
             share(tally.dimmer as f64, lit_pixels),

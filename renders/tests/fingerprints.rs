@@ -3,7 +3,7 @@
 use formula::{Expr, Library};
 use renders::{
     Backend, Error, Eye, Fingerprint, Light, Options, Precision, RADIUS, Scene, convergence,
-    point_at, profile, raw, render,
+    point_at, profile, raw, render, visibility,
 };
 use std::sync::atomic::AtomicBool;
 
@@ -514,8 +514,19 @@ fn the_total_of_a_divergent_bug_grows_with_the_picture() {
         headlight[2].wrong > 1.2 * headlight[0].wrong,
         "{headlight:?}"
     );
+    // Two doublings from one size to the next.
+    let growth = |light_deg| {
+        let bug = bug(CORRECT, DIVIDED_TWICE, 0.7, 0.95, light_deg);
+        let seen = visibility(&bug.fingerprint(), &cpu(64)).expect("figures");
+        seen.growth_per_doubling
+    };
+    let four = headlight[2].wrong - headlight[0].wrong;
+    close(four, 4.0 * growth(0.0), 0.06, "as the figure says");
+    let closed = 0.49 * 0.95 * std::f64::consts::LN_2 / (16.0 * std::f64::consts::PI);
+    close(growth(0.0), closed, 1e-6, "which is α·F₀·ln 2 / 16π");
     let sixty = totals(60.0);
     close(sixty[1].wrong, sixty[2].wrong, 0.02, "elsewhere it settles");
+    assert_eq!(growth(60.0), 0.0);
 }
 
 #[test]

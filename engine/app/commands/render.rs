@@ -58,6 +58,7 @@ struct Visibility {
     rim_over_highlight_wrong: Option<f64>,
     rim_over_highlight_right: Option<f64>,
     terminator_step: Option<f64>,
+    growth_per_doubling: Option<f64>,
     brighter_by_8: Option<f64>,
     dimmer_by_8: Option<f64>,
 }
@@ -72,6 +73,7 @@ impl Visibility {
             rim_over_highlight_wrong: number("rim_over_highlight_wrong"),
             rim_over_highlight_right: number("rim_over_highlight_right"),
             terminator_step: number("terminator_step"),
+            growth_per_doubling: number("growth_per_doubling"),
             brighter_by_8: number("brighter_by_8"),
             dimmer_by_8: number("dimmer_by_8"),
         }

@@ -57,13 +57,14 @@ impl SceneLight {
 pub const STAGING: [&str; 2] = ["eye_distance", "radius"];
 
 /// The figures of a picture that can be quoted in `seen`, as `lobe render --json` names them.
-pub const SEEN: [&str; 8] = [
+pub const SEEN: [&str; 9] = [
     "lit_above_one",
     "disc_above_one",
     "ratio_at_highlight",
     "rim_over_highlight_wrong",
     "rim_over_highlight_right",
     "terminator_step",
+    "growth_per_doubling",
     "brighter_by_8",
     "dimmer_by_8",
 ];
