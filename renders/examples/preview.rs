@@ -54,7 +54,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         rest.push(took - shaded);
         whole.push(took);
     }
-    println!("{FRAMES} frames of 3 panels of {size} by {size} pixels, f32, budget 33 ms a frame");
+    println!("{FRAMES} frames of 3 panels of {size} by {size} pixels, f64, budget 33 ms a frame");
     print("both panels shaded", shading);
     print("exposure, figures, colours", rest);
     print("frame", whole);

@@ -59,6 +59,13 @@ impl Canvas {
         self.pixels.as_flattened()
     }
 
+    /// The pixels of those of some rows that are held.
+    pub fn pixels_mut(&mut self, rows: Range<usize>) -> &mut [Rgb] {
+        let held = &self.rows;
+        let at = |row: usize| (row.clamp(held.start, held.end) - held.start) * self.width;
+        &mut self.pixels[at(rows.start)..at(rows.end)]
+    }
+
     /// Width in pixels.
     pub fn width(&self) -> usize {
         self.width
@@ -71,10 +78,11 @@ impl Canvas {
 
     /// Red, green, blue, 255 of every pixel.
     pub fn rgba(&self) -> Vec<u8> {
-        self.pixels
-            .iter()
-            .flat_map(|&[r, g, b]| [r, g, b, 255])
-            .collect()
+        let mut rgba = vec![255; 4 * self.pixels.len()];
+        for (to, [red, green, blue]) in rgba.chunks_exact_mut(4).zip(&self.pixels) {
+            (to[0], to[1], to[2]) = (*red, *green, *blue);
+        }
+        rgba
     }
 
     /// Replaces one pixel; outside the canvas nothing happens.
@@ -290,10 +298,10 @@ impl Align {
 
 /// A PNG file of `rgba` pixels, written without alpha and tagged as sRGB.
 pub fn png(width: u32, height: u32, rgba: &[u8]) -> Vec<u8> {
-    let rgb: Vec<u8> = rgba
-        .chunks_exact(4)
-        .flat_map(|p| [p[0], p[1], p[2]])
-        .collect();
+    let mut rgb = vec![0; rgba.len() / 4 * 3];
+    for (to, from) in rgb.chunks_exact_mut(3).zip(rgba.chunks_exact(4)) {
+        to.copy_from_slice(&from[..3]);
+    }
     let mut file = Vec::new();
     // Writing to memory fails only if the buffer and the header disagree, which they cannot.
     let written =

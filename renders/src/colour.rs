@@ -14,7 +14,10 @@ pub fn srgb_encode(linear: f64) -> f64 {
 }
 
 /// The sRGB curve as a table, for the many pixels of a panel: within a quarter of a level.
-pub struct EncodeTable(Vec<f32>);
+pub struct EncodeTable {
+    signals: Vec<f32>,
+    bytes: Vec<u8>,
+}
 
 impl Default for EncodeTable {
     fn default() -> Self {
@@ -27,21 +30,27 @@ impl EncodeTable {
 
     /// Computes the table, which costs as much as some thousand pixels.
     pub fn new() -> Self {
-        Self(
-            (0..=Self::STEPS)
-                .map(|i| srgb_encode(i as f64 / Self::STEPS as f64) as f32)
-                .collect(),
-        )
+        let signal = |i: usize| srgb_encode(i as f64 / Self::STEPS as f64) as f32;
+        let signals: Vec<f32> = (0..=Self::STEPS).map(signal).collect();
+        let byte = |signal: &f32| (signal * 255.0 + 0.5) as u8;
+        Self {
+            bytes: signals.iter().map(byte).collect(),
+            signals,
+        }
+    }
+
+    fn step(linear: f32) -> usize {
+        (linear.clamp(0.0, 1.0) * Self::STEPS as f32 + 0.5) as usize
     }
 
     /// The signal in [0, 1]; NaN gives 0.
     pub fn signal(&self, linear: f32) -> f32 {
-        self.0[(linear.clamp(0.0, 1.0) * Self::STEPS as f32 + 0.5) as usize]
+        self.signals[Self::step(linear)]
     }
 
     /// The signal as a byte.
     pub fn byte(&self, linear: f32) -> u8 {
-        (self.signal(linear) * 255.0 + 0.5) as u8
+        self.bytes[Self::step(linear)]
     }
 }
 
@@ -98,6 +107,12 @@ pub fn diverging(log2_ratio: f64) -> Rgb {
 
 /// [`diverging`] as a table.
 pub struct DivergingTable(Vec<Rgb>);
+
+impl Default for DivergingTable {
+    fn default() -> Self {
+        Self::new()
+    }
+}
 
 impl DivergingTable {
     const STEPS: usize = 1 << 10;

@@ -13,7 +13,14 @@ pub(crate) fn ratio_one(shaded: &Shaded, size: usize, first: usize) -> Vec<[(f32
     let mut segments = Vec::new();
     let rows = shaded.lit.len() / size;
     for row in 0..rows.saturating_sub(1) {
-        for column in 0..size.saturating_sub(1) {
+        let [above, below] = [row, row + 1].map(|row| &shaded.stops[row * size..(row + 1) * size]);
+        for (column, (above, below)) in above.windows(2).zip(below.windows(2)).enumerate() {
+            // Nearly everywhere nothing crosses.
+            let negative = |value: &f32| *value < 0.0;
+            let signs = [&above[1], &below[0], &below[1]].map(negative);
+            if signs == [negative(&above[0]); 3] {
+                continue;
+            }
             let corners = [(0, 0), (1, 0), (1, 1), (0, 1)];
             let values = corners.map(|(dx, dy)| field(column + dx, row + dy).unwrap_or(f32::NAN));
             // Rounding alone is not a crossing.

@@ -27,6 +27,7 @@ mod label;
 mod look;
 mod map;
 mod own;
+mod paint;
 mod pen;
 mod picture;
 mod places;
@@ -64,6 +65,7 @@ use crate::colour::{DARK, EncodeTable};
 use crate::cpu::Cpu;
 use crate::device::Wanted;
 use crate::gpu::Gpu;
+use crate::paint::Tables;
 use crate::picture::Page;
 use crate::plan::Plan;
 use crate::profile::Profile;
@@ -279,22 +281,21 @@ fn render_planned(
         raw: false,
     };
     let drawn = draw_panels(fingerprint, options, &plan, shown, cancel)?;
+    let tables = Tables::default();
     let tally = if visibility::holds_for(drawn.backend, options) {
-        let mut tally = Tally::of(&drawn.panel);
-        tally.add(&drawn.shaded, &EncodeTable::new());
-        tally
+        Tally::of_all(&drawn.panel, &drawn.shaded, &tables.encode)
     } else {
         plan.explain.push(visibility::COUNTED_APART.to_owned());
         let job = job(fingerprint, options, &plan, shown, cancel)?;
-        visibility::tally(&job, &cpu, &EncodeTable::new())?
+        visibility::tally(&job, &cpu, &tables.encode)?
     };
     let visibility = visibility::measure(fingerprint, &cpu, &tally);
     let canvas = if options.compact || options.size < LEAST_WITH_TEXT {
-        picture::compact(&drawn.panel, &drawn.shaded)
+        paint::compact(&drawn.panel, &drawn.shaded, &tables)
     } else {
         let page = Page::new(fingerprint, drawn.panel, &profile, exposure);
         let mut canvas = Canvas::new(page.width, page.height, DARK.paper);
-        page.draw(&mut canvas, (&drawn.shaded, 0), &visibility)?;
+        page.draw(&mut canvas, (&drawn.shaded, 0), &visibility, &tables)?;
         canvas
     };
     let pixels = u64::from(options.size).pow(2);

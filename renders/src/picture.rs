@@ -2,31 +2,15 @@
 
 use crate::canvas::{Align, Canvas, Style};
 use crate::chart::{Chart, PlotSpec};
-use crate::colour::{
-    DARK, DivergingTable, EncodeTable, RATIO_STOPS, Rgb, diverging, mix, srgb_decode,
-};
-use crate::contour;
+use crate::colour::{DARK, RATIO_STOPS, diverging};
+use crate::paint::{Tables, contour_width, panels};
 use crate::profile::{HIGHLIGHT_SHARE, Profile};
 use crate::sample::Panel;
 use crate::shade::Shaded;
 use crate::text::{Weight, shorten, wrap};
 use crate::visibility::Visibility;
 use crate::{Error, Eye, Fingerprint, Light};
-use std::array::from_fn;
 use std::ops::Range;
-
-/// The sphere where no light reaches it, in the ratio's panel.
-const UNLIT: Rgb = [9, 10, 13];
-
-/// Only the panels, for a terminal.
-pub(crate) fn compact(panel: &Panel, shaded: &Shaded) -> Canvas {
-    let size = panel.size;
-    let gap = (size / 32).max(1);
-    let mut canvas = Canvas::new(3 * size + 2 * gap, size, DARK.paper);
-    let columns = [0, size + gap, 2 * (size + gap)];
-    panels(&mut canvas, panel, (shaded, 0), columns, 0);
-    canvas
-}
 
 /// Positions and sizes in pixels; all follow the panel's size.
 struct Layout {
@@ -137,6 +121,7 @@ impl<'a> Page<'a> {
         canvas: &mut Canvas,
         (shaded, first): (&Shaded, usize),
         visibility: &Visibility,
+        tables: &Tables,
     ) -> Result<(), Error> {
         let Layout {
             size,
@@ -163,7 +148,15 @@ impl<'a> Page<'a> {
 
         let (top, below) = (self.top, self.below);
         let columns = [0, 1, 2].map(|index| self.layout.column(index) as usize);
-        panels(canvas, &self.panel, (shaded, first), columns, top as usize);
+        let top_row = top as usize;
+        panels(
+            canvas,
+            &self.panel,
+            (shaded, first),
+            columns,
+            top_row,
+            tables,
+        );
         headings(canvas, &self.layout, self.fingerprint, top);
         profile_ticks(canvas, &self.layout, self.fingerprint, top);
         let chart_height = self.layout.chart_height();
@@ -191,67 +184,6 @@ impl<'a> Page<'a> {
         }
         Ok(())
     }
-}
-
-/// How wide the line is on which both values are equal.
-fn contour_width(size: usize) -> f32 {
-    (size as f32 / 180.0).max(1.0)
-}
-
-/// Paints the three panels with their left edges at `columns`, as far as the canvas holds their
-/// rows. `shaded` starts at row `first`.
-fn panels(
-    canvas: &mut Canvas,
-    panel: &Panel,
-    (shaded, first): (&Shaded, usize),
-    columns: [usize; 3],
-    top: usize,
-) {
-    let size = panel.size;
-    let (encode, diverging) = (EncodeTable::new(), DivergingTable::new());
-    let channels = shaded.channels();
-    let surround = DARK.panel.map(|byte| srgb_decode(byte) as f32);
-    let held = |row: usize| row.saturating_sub(top).min(size);
-    for row in held(canvas.rows().start)..held(canvas.rows().end) {
-        for column in 0..size {
-            let index = (row - first) * size + column;
-            let cover = panel.cover(column, row);
-            let behind = 1.0 - cover as f32;
-            let shown = |seen: &[f32]| match cover {
-                0.0 => DARK.panel,
-                1.0 => from_fn(|channel| encode.byte(seen[channel % channels])),
-                _ => from_fn(|channel| {
-                    encode.byte(seen[channel % channels] + behind * surround[channel])
-                }),
-            };
-            let values = index * channels..(index + 1) * channels;
-            let lit = f64::from(shaded.lit[index]);
-            let ratio = match lit {
-                _ if cover == 0.0 => DARK.panel,
-                0.0 => mix(DARK.panel, UNLIT, cover),
-                1.0 => diverging.colour(shaded.stops[index]),
-                _ => mix(
-                    mix(DARK.panel, UNLIT, cover),
-                    diverging.colour(shaded.stops[index]),
-                    lit,
-                ),
-            };
-            let colours = [
-                shown(&shaded.right_seen[values.clone()]),
-                shown(&shaded.wrong_seen[values]),
-                ratio,
-            ];
-            for (left, colour) in columns.into_iter().zip(colours) {
-                canvas.set((left + column) as i32, (top + row) as i32, colour);
-            }
-        }
-    }
-    let offset = (columns[2] as f32, top as f32);
-    let contour: Vec<[(f32, f32); 2]> = contour::ratio_one(shaded, size, first)
-        .into_iter()
-        .map(|ends| ends.map(|(x, y)| (x + offset.0, y + offset.1)))
-        .collect();
-    canvas.strokes(&contour, contour_width(size), [24, 24, 28], 1.0);
 }
 
 fn headings(canvas: &mut Canvas, layout: &Layout, fingerprint: &Fingerprint<'_>, top: f32) {

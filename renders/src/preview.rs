@@ -1,22 +1,22 @@
 //! One fingerprint drawn again and again while its scene changes: the formulas are compiled once,
 //! and a frame costs only its pixels.
 
-use crate::colour::EncodeTable;
 use crate::cpu::Cpu;
+use crate::paint::{self, Tables};
 use crate::plan::Plan;
 use crate::profile::Profile;
 use crate::sample::Panel;
 use crate::scene::VARYING;
-use crate::shade::{Engine, Job, Shaded, shade};
-use crate::visibility::{self, Visibility};
-use crate::{Error, Fingerprint, MAX_SIZE, MIN_SIZE, Precision, Raw, Scene, picture};
+use crate::shade::{Engine, Job, Shaded, shade, shade_again};
+use crate::visibility::{self, Tally, Visibility};
+use crate::{Error, Fingerprint, MAX_SIZE, MIN_SIZE, Precision, Raw, Scene};
 use formula::{Expr, Library};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
-/// Both formulas, ready for any scene with the same further givens. The panels are in f32 on the
-/// CPU, the figures in f64.
+/// Both formulas, ready for any scene with the same further givens, in f64 on the CPU: the panels
+/// hold the figures too.
 pub struct Preview {
     library: Library,
     right: Expr,
@@ -24,9 +24,10 @@ pub struct Preview {
     plan: Plan,
     /// The quantities of the scene that the formulas need.
     needs: Vec<String>,
-    shades: Arc<Cpu>,
-    measures: Arc<Cpu>,
-    encode: EncodeTable,
+    cpu: Arc<Cpu>,
+    tables: Tables,
+    /// Memory of the frame before.
+    shaded: Shaded,
     /// A frame is never cancelled.
     never: AtomicBool,
 }
@@ -64,14 +65,14 @@ impl Preview {
         let mut needs = library.needs(right);
         needs.append(&mut library.needs(wrong));
         Ok(Self {
-            shades: Arc::new(Cpu::new(fingerprint, &plan, Precision::F32)?),
-            measures: Arc::new(Cpu::new(fingerprint, &plan, Precision::F64)?),
+            cpu: Arc::new(Cpu::new(fingerprint, &plan, Precision::F64)?),
             library: (*library).clone(),
             right: (*right).clone(),
             wrong: (*wrong).clone(),
             plan,
             needs: needs.into_iter().collect(),
-            encode: EncodeTable::new(),
+            tables: Tables::default(),
+            shaded: Shaded::default(),
             never: AtomicBool::new(false),
         })
     }
@@ -89,20 +90,37 @@ impl Preview {
     /// a size out of range.
     pub fn draw(&mut self, scene: &Scene, size: u32, stops: f64) -> Result<Frame, Error> {
         let columns = self.prepare(scene)?;
+        let mut shaded = std::mem::take(&mut self.shaded);
+        let frame = self.frame(scene, columns, size, stops, &mut shaded);
+        self.shaded = shaded;
+        frame
+    }
+
+    fn frame(
+        &self,
+        scene: &Scene,
+        columns: [bool; VARYING.len()],
+        size: u32,
+        stops: f64,
+        shaded: &mut Shaded,
+    ) -> Result<Frame, Error> {
         let fingerprint = self.fingerprint(scene);
-        let exposure = Profile::of(&fingerprint, &self.measures).exposure() * stops.exp2();
+        let exposure = Profile::of(&fingerprint, &self.cpu).exposure() * stops.exp2();
         let start = Instant::now();
         let job = self.job(scene, columns, size, exposure, false)?;
-        let shaded = self.shade(&job)?;
+        shade_again(&job, &self.engine(), shaded)?;
         let shading = start.elapsed();
-        let tally = visibility::tally(&job, &self.measures, &self.encode)?;
-        let canvas = picture::compact(&job.panel, &shaded);
+        let tally = match job.panel.size <= visibility::LARGEST {
+            true => Tally::of_all(&job.panel, shaded, &self.tables.encode),
+            false => visibility::tally(&job, &self.cpu, &self.tables.encode)?,
+        };
+        let canvas = paint::compact(&job.panel, shaded, &self.tables);
         Ok(Frame {
             width: canvas.width() as u32,
             height: canvas.height() as u32,
             rgba: canvas.rgba(),
             exposure,
-            visibility: visibility::measure(&fingerprint, &self.measures, &tally),
+            visibility: visibility::measure(&fingerprint, &self.cpu, &tally),
             shading,
         })
     }
@@ -113,7 +131,8 @@ impl Preview {
     /// As [`Preview::draw`].
     pub fn raw(&mut self, scene: &Scene, size: u32) -> Result<Raw, Error> {
         let columns = self.prepare(scene)?;
-        let shaded = self.shade(&self.job(scene, columns, size, 1.0, true)?)?;
+        let job = self.job(scene, columns, size, 1.0, true)?;
+        let shaded = shade(&job, &self.engine())?;
         Ok(Raw {
             size,
             channels: shaded.channels() as u32,
@@ -125,9 +144,7 @@ impl Preview {
     /// Takes over what the scene gives; the columns that its points need.
     fn prepare(&mut self, scene: &Scene) -> Result<[bool; VARYING.len()], Error> {
         scene.check()?;
-        for cpu in [&mut self.measures, &mut self.shades] {
-            Arc::make_mut(cpu).take_over(scene)?;
-        }
+        Arc::make_mut(&mut self.cpu).take_over(scene)?;
         let same = scene.same().a_light;
         Ok(std::array::from_fn(|index| {
             self.needs(VARYING[index]) && !same[index]
@@ -147,8 +164,8 @@ impl Preview {
         }
     }
 
-    fn shade(&self, job: &Job<'_>) -> Result<Shaded, Error> {
-        shade(job, &Engine::Cpu(self.shades.clone()))
+    fn engine(&self) -> Engine {
+        Engine::Cpu(self.cpu.clone())
     }
 
     fn job(

@@ -280,6 +280,24 @@ impl Panel {
         (self.outline() * (1.0 - (x * x + y * y).sqrt()) + 0.5).clamp(0.0, 1.0)
     }
 
+    /// The columns of a row in which [`Panel::cover`] may be more than 0, and among them some where
+    /// it is 1: all but a few.
+    pub fn discs(&self, row: usize) -> (Range<usize>, Range<usize>) {
+        let (outline, middle) = (self.outline(), self.size as f64 / 2.0);
+        let y = row as f64 + 0.5 - middle;
+        let half = |radius: f64| (radius * radius - y * y).max(0.0).sqrt();
+        let clamp = |at: f64| at.clamp(0.0, self.size as f64) as usize;
+        // A column is named by its left side; one more on each side keeps rounding out.
+        let touched = half(outline + 1.5) + 1.0;
+        let touched = clamp((middle - touched).floor())..clamp((middle + touched).ceil());
+        let covered = half((outline - 1.5).max(0.0)) - 1.0;
+        let covered = clamp((middle - covered).ceil())..clamp((middle + covered).floor());
+        match covered.start < covered.end {
+            true => (touched, covered),
+            false => (touched.clone(), touched.end..touched.end),
+        }
+    }
+
     /// The samples of the rows from `first` up to, not including, `last` under one light.
     #[cfg(test)]
     pub fn samples(&self, geometry: &Geometry, first: usize, last: usize) -> Samples {

@@ -2,10 +2,11 @@
 //! grow with their height.
 
 use crate::canvas::{Canvas, png_header};
-use crate::colour::{DARK, EncodeTable};
+use crate::colour::DARK;
 use crate::cpu::Cpu;
 use crate::error::Error;
 use crate::exr;
+use crate::paint::Tables;
 use crate::picture::Page;
 use crate::plan::Plan;
 use crate::png16;
@@ -110,13 +111,18 @@ fn write_png_holding(
         if window.end(size) == size && visibility.is_none() {
             let tally = match window.tally {
                 Some(tally) => tally,
-                None => tally(&job, &cpu, &window.encode)?,
+                None => tally(&job, &cpu, &window.tables.encode)?,
             };
             visibility = Some(measure(fingerprint, &cpu, &tally));
         }
         let mut canvas = Canvas::strip(page.width, page.height, rows, DARK.paper);
         let known = visibility.as_ref().unwrap_or(&Visibility::UNKNOWN);
-        page.draw(&mut canvas, (&window.shaded, window.first), known)?;
+        page.draw(
+            &mut canvas,
+            (&window.shaded, window.first),
+            known,
+            &window.tables,
+        )?;
         file.write_all(canvas.rgb()).map_err(unwritten)?;
     }
     file.finish().map_err(unwritten)?;
@@ -228,7 +234,7 @@ struct Window {
     first: usize,
     /// The figures of all of them, where they are counted on these rows.
     tally: Option<Tally>,
-    encode: EncodeTable,
+    tables: Tables,
     pixels: u64,
     points: u64,
 }
@@ -242,7 +248,7 @@ impl Window {
     /// Adds the rows that come next.
     fn take(&mut self, more: Shaded) {
         if let Some(tally) = &mut self.tally {
-            tally.add(&more, &self.encode);
+            tally.add(&more, &self.tables.encode);
         }
         self.pixels += more.pixels;
         self.points += more.points;

@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 /// What is counted in pixels is counted on a panel of at most this size: a larger one would
 /// change no digit that is printed.
-const LARGEST: usize = 1024;
+pub(crate) const LARGEST: usize = 1024;
 
 /// What a fingerprint shows, in numbers: always computed in f64, so that they are the same
 /// whatever draws. (In f32 every ratio within 6e-8 of 1 is 1, and that can be a good part of a
@@ -112,9 +112,7 @@ pub(crate) fn tally(job: &Job<'_>, cpu: &Arc<Cpu>, encode: &EncodeTable) -> Resu
         false => Engine::Cpu(cpu.clone()),
     };
     let shaded = shade(&job, &engine)?;
-    let mut tally = Tally::of(&panel);
-    tally.add(&shaded, encode);
-    Ok(tally)
+    Ok(Tally::of_all(&panel, &shaded, encode))
 }
 
 /// Sums over the pixels of a picture.
@@ -141,6 +139,13 @@ impl Tally {
             brighter: 0,
             dimmer: 0,
         }
+    }
+
+    /// Of a whole panel.
+    pub fn of_all(panel: &Panel, shaded: &Shaded, encode: &EncodeTable) -> Self {
+        let mut tally = Self::of(panel);
+        tally.add(shaded, encode);
+        tally
     }
 
     /// Adds the pixels of some rows.

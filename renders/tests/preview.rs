@@ -1,7 +1,7 @@
 //! A picture drawn again and again shows what a picture drawn once shows.
 
 use formula::{Expr, Library};
-use renders::{Backend, Eye, Fingerprint, Light, Options, Precision, Preview, Scene, raw, render};
+use renders::{Backend, Eye, Fingerprint, Light, Options, Preview, Scene, raw, render};
 use std::sync::atomic::AtomicBool;
 
 const RIGHT: &str = "d_ggx() * v_ggx() * f_schlick() * n_dot_l";
@@ -48,7 +48,6 @@ fn options() -> Options {
     Options {
         size: 64,
         backend: Backend::Cpu,
-        precision: Precision::F32,
         compact: true,
         ..Options::default()
     }
