@@ -120,6 +120,21 @@ impl<R: Real> Ggx<R> {
         product * q * q * lit(FRAC_1_PI)
     }
 
+    /// The same with what rounding a squared component leaves, but not the sums of them.
+    #[inline(always)]
+    fn d_of_squares(&self, [x, y, z]: Vector<R>) -> R {
+        let product = self.alpha_x * self.alpha_y;
+        let xy = x + y;
+        let across = if self.alpha_x == self.alpha_y {
+            xy
+        } else {
+            let ratio = self.alpha_y / self.alpha_x;
+            x * ratio + y / ratio
+        };
+        let q = (xy + z) / (across + product * z);
+        product * lit(FRAC_1_PI) * q * q
+    }
+
     /// Λ of a direction, see [`crate::lambda_ggx`]; +∞ at and below the horizon.
     #[inline(always)]
     pub fn lambda(&self, v: impl Into<Vector<R>>) -> R {
@@ -171,8 +186,11 @@ impl<R: Real> Ggx<R> {
     #[inline(always)]
     pub fn eval(&self, l: impl Into<Vector<R>>, v: impl Into<Vector<R>>) -> R {
         let (l, v) = (l.into(), v.into());
-        let (h, squares) = half_squared(l, v);
-        let value = self.d_unless_smooth(h, squares) * self.visibility_of(l, v);
+        if l[2] < lit(0.0) || v[2] < lit(0.0) {
+            return below_horizon(l, v);
+        }
+        let (_, squares) = half_squared(l, v);
+        let value = self.d_of_squares(squares) * (lit::<R>(0.5) / self.facing(l, v));
         if value.is_finite() {
             value
         } else {
@@ -188,6 +206,18 @@ impl<R: Real> Ggx<R> {
             )
         }
     }
+
+    /// Half of what V is the inverse of, for directions above the horizon.
+    #[inline(always)]
+    fn facing(&self, l: Vector<R>, v: Vector<R>) -> R {
+        l[2] * self.projected(v) + v[2] * self.projected(l)
+    }
+}
+
+/// 0, or a component that is NaN.
+#[inline(always)]
+fn below_horizon<R: Real>(l: Vector<R>, v: Vector<R>) -> R {
+    zero_unless_nan([l[0], l[1], l[2], v[0], v[1], v[2]])
 }
 
 /// [`Ggx::eval`] where that needs more than the formula. It takes numbers for the reason that
@@ -282,22 +312,16 @@ fn sum_squared<R: Real>(a: Vector<R>, b: Vector<R>) -> R {
     square(a[0].two_sum(b[0])) + square(a[1].two_sum(b[1])) + square(a[2].two_sum(b[2]))
 }
 
-/// |a − b|² to its last digit.
+/// |a − b|², with the rounding errors of all sums.
 #[inline(always)]
 fn difference_squared<R: Real>(a: Vector<R>, b: Vector<R>) -> R {
-    let (x, x_low) = square_exact(a[0].two_sum(-b[0]));
-    let (y, y_low) = square_exact(a[1].two_sum(-b[1]));
-    let (z, z_low) = square_exact(a[2].two_sum(-b[2]));
+    let square = |(high, low): (R, R)| (high * high, high * low);
+    let (x, x_low) = square(a[0].two_sum(-b[0]));
+    let (y, y_low) = square(a[1].two_sum(-b[1]));
+    let (z, z_low) = square(a[2].two_sum(-b[2]));
     let (sum, low) = x.two_sum(y);
     let (sum, low2) = sum.two_sum(z);
-    sum + ((low + low2) + (x_low + y_low + z_low))
-}
-
-/// The square of an unevaluated sum as one.
-#[inline(always)]
-fn square_exact<R: Real>((high, low): (R, R)) -> (R, R) {
-    let (square, square_low) = high.two_square();
-    (square, square_low + lit::<R>(2.0) * high * low)
+    sum + ((low + low2) + lit::<R>(2.0) * (x_low + y_low + z_low))
 }
 
 /// The square of an unevaluated sum, without its last term.
@@ -348,6 +372,12 @@ impl<R: Real> Fresnel<R> {
     #[inline(always)]
     fn of_facet(&self, l: Vector<R>, v: Vector<R>) -> [R; 3] {
         let (c, rest) = v_dot_h_and_rest(l, v);
+        self.at(c, rest)
+    }
+
+    /// Of V·H and 1 − V·H.
+    #[inline(always)]
+    fn at(&self, c: R, rest: R) -> [R; 3] {
         match *self {
             Fresnel::Perfect => [lit(1.0); 3],
             Fresnel::Schlick { f0 } => {
@@ -386,18 +416,33 @@ impl<R: Real> Specular<R> {
     #[inline(always)]
     pub fn eval_cos(&self, l: impl Into<Vector<R>>, v: impl Into<Vector<R>>) -> [R; 3] {
         let (l, v) = (l.into(), v.into());
-        let value = self.ggx.eval(l, v) * l[2].at_least(lit(0.0));
-        let [r, g, b] = self.fresnel.of_facet(l, v).map(|f| f * value);
-        if (r + g + b).is_nan() {
-            // ∞ · 0 at the peak or on the horizon of a mirror: nothing leaves there.
-            let zero = |(), _, _| lit(0.0);
-            return [
-                rescued(r, (l, v), (), zero),
-                rescued(g, (l, v), (), zero),
-                rescued(b, (l, v), (), zero),
-            ];
+        if l[2] < lit(0.0) || v[2] < lit(0.0) {
+            return [below_horizon(l, v); 3];
         }
-        [r, g, b]
+        let (_, squares) = half_squared(l, v);
+        let facing = self.ggx.facing(l, v);
+        let value = self.ggx.d_of_squares(squares) * (l[2] / (facing + facing));
+        let (c, rest) = half_angle(l, v);
+        let [r, g, b] = self.fresnel.at(c, rest).map(|f| f * value);
+        if (r + g + b).is_finite() && c + rest <= lit(2.0) {
+            [r, g, b]
+        } else {
+            self.eval_cos_again(l[0], l[1], l[2], v[0], v[1], v[2])
+        }
+    }
+
+    /// [`Specular::eval_cos`] where that needs more than the formula. It takes numbers for the
+    /// reason that [`rescued`] does.
+    #[cold]
+    #[inline(never)]
+    fn eval_cos_again(&self, l_x: R, l_y: R, l_z: R, v_x: R, v_y: R, v_z: R) -> [R; 3] {
+        let (l, v) = ([l_x, l_y, l_z], [v_x, v_y, v_z]);
+        let value = self.ggx.eval(l, v) * l_z;
+        // ∞ · 0 at the peak or on the horizon of a mirror: nothing leaves there.
+        let nothing = |(), _, _| lit(0.0);
+        self.fresnel
+            .of_facet(l, v)
+            .map(|f| rescued(f * value, (l, v), (), nothing))
     }
 
     /// Draws a light for a view: the direction, its density and BRDF · N·L / density.
