@@ -107,11 +107,11 @@ const H_Z: Param = Param {
     unit: "1",
     meaning: "half vector along the normal",
 };
-const ALPHA_X: Param = Param {
+pub(crate) const ALPHA_X: Param = Param {
     meaning: "width of the distribution along the tangent",
     ..ALPHA
 };
-const ALPHA_Y: Param = Param {
+pub(crate) const ALPHA_Y: Param = Param {
     meaning: "width of the distribution along the bitangent",
     ..ALPHA
 };

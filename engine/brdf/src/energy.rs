@@ -92,7 +92,8 @@ pub fn multi_scattering_tint<R: Real>(f_average: R, albedo_average: R) -> R {
     if f == one {
         return one;
     }
-    f * f * e / (one - f * (one - e))
+    // The divisor as a sum: 1 − F_avg (1 − E_avg) cancels where little is absorbed.
+    f * f * e / ((one - f) + f * e)
 }
 
 /// Turquin's factor on the whole single-scattering lobe: 1 + f0 (1 − E(v))/E(v).

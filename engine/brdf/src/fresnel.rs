@@ -382,7 +382,7 @@ pub fn conductor_rgb<R: Real>(n: [R; 3], k: [R; 3], v_dot_h: R) -> [R; 3] {
 #[inline(always)]
 pub fn f0_from_metallic<R: Real>(base_color: [R; 3], metallic: R) -> [R; 3] {
     let m = metallic.clamp_unit();
-    base_color.map(|base| lit::<R>(0.04) * (lit::<R>(1.0) - m) + base * m)
+    base_color.map(|base| lit::<R>(0.04) * (lit::<R>(1.0) - m) + base.bounded() * m)
 }
 
 /// Schlick's reflectance averaged over the cosine-weighted hemisphere: (1 + 20 f0)/21.

@@ -5,7 +5,7 @@
 //! expected to have length 1 and to point away from the surface.
 
 use crate::fresnel::{conductor_rgb, f_dielectric};
-use crate::real::{Real, lit, zero_unless_nan};
+use crate::real::{Real, lit, plus, quotient, squared, times, zero_unless_nan};
 use crate::sampling::{Sample, Sampler};
 use crate::vector::{Vector, rescued, tamed};
 use std::f64::consts::FRAC_1_PI;
@@ -77,6 +77,13 @@ impl<R: Real> Ggx<R> {
     #[inline(always)]
     pub(crate) fn d_of_sum(&self, l: Vector<R>, v: Vector<R>) -> R {
         let (h, squares) = half_squared(l, v);
+        if self.alpha_x != self.alpha_y && h[2] >= lit(0.0) {
+            let (a, b) = (self.alpha_x, self.alpha_y);
+            let d = d_stretched(l[0], l[1], l[2], v[0], v[1], v[2], a, b);
+            if d.is_finite() {
+                return d;
+            }
+        }
         self.d_squares(h, squares)
     }
 
@@ -97,16 +104,14 @@ impl<R: Real> Ggx<R> {
         if h[2] < lit(0.0) {
             return zero_unless_nan(h);
         }
-        // t times α_x α_y, without quotients where the widths are the same.
+        if self.alpha_x != self.alpha_y {
+            let (zero, [x, y, z]) = (lit(0.0), h);
+            return d_stretched(x, y, z, zero, zero, zero, self.alpha_x, self.alpha_y);
+        }
+        // t times α².
         let product = self.alpha_x * self.alpha_y;
-        let xy = x + y;
-        let across = if self.alpha_x == self.alpha_y {
-            xy
-        } else {
-            let ratio = self.alpha_y / self.alpha_x;
-            x * ratio + y / ratio
-        };
-        let (m, m_low) = xy.two_sum(z);
+        let across = x + y;
+        let (m, m_low) = across.two_sum(z);
         if m == lit(0.0) {
             return m;
         }
@@ -158,6 +163,12 @@ impl<R: Real> Ggx<R> {
     #[inline(always)]
     pub fn g1(&self, v: impl Into<Vector<R>>) -> R {
         let v = v.into();
+        let value = self.g1_of(v);
+        rescued(value, (v, v), *self, |ggx, v, _| ggx.tamed().g1_of(v))
+    }
+
+    #[inline(always)]
+    fn g1_of(&self, v: Vector<R>) -> R {
         if v[2] <= lit(0.0) {
             return zero_unless_nan(v);
         }
@@ -249,6 +260,40 @@ fn eval_again<R: Real>(
 fn half_squared<R: Real>(l: Vector<R>, v: Vector<R>) -> (Vector<R>, Vector<R>) {
     let (x, y, z) = (l[0].two_sum(v[0]), l[1].two_sum(v[1]), l[2].two_sum(v[2]));
     ([x.0, y.0, z.0], [square(x), square(y), square(z)])
+}
+
+/// D of a stretched surface from a light and a view: (α_x α_y m/t)² α_x α_y/π with m = |h|²,
+/// t = α_y² h_x² + α_x² h_y² + α_x² α_y² h_z², h = l + v. Nothing of m and t is the same here, so
+/// that both keep all of their rounding errors. It takes numbers for the reason that [`rescued`]
+/// does.
+#[inline(never)]
+#[allow(clippy::too_many_arguments)]
+fn d_stretched<R: Real>(
+    l_x: R,
+    l_y: R,
+    l_z: R,
+    v_x: R,
+    v_y: R,
+    v_z: R,
+    alpha_x: R,
+    alpha_y: R,
+) -> R {
+    let [x, y, z] = [l_x.two_sum(v_x), l_y.two_sum(v_y), l_z.two_sum(v_z)].map(squared);
+    let m = plus(plus(x, y), z);
+    if m.0 == lit(0.0) {
+        return m.0;
+    }
+    let (a2, b2) = (alpha_x.two_square(), alpha_y.two_square());
+    let t = plus(plus(times(b2, x), times(a2, y)), times(times(a2, b2), z));
+    if t.0 < lit(R::TINY) {
+        // Of too few digits: [`smooth_d`] has them.
+        return m.0 / lit(0.0);
+    }
+    let product = alpha_x.two_prod(alpha_y);
+    let (q, low) = quotient(times(product, m), t);
+    let q = q + low;
+    // One by one: the square overflows where D does not.
+    product.0 * q * q * lit(FRAC_1_PI)
 }
 
 /// D of a surface so smooth that α² is not a number of full precision, where `d` is not finite:

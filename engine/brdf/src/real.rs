@@ -194,6 +194,27 @@ pub(crate) fn quotient<R: Real>(n: (R, R), d: (R, R)) -> (R, R) {
     (q, if low.is_finite() { low } else { lit(0.0) })
 }
 
+/// The sum of two unevaluated sums as one.
+#[inline(always)]
+pub(crate) fn plus<R: Real>(a: (R, R), b: (R, R)) -> (R, R) {
+    let (high, low) = a.0.two_sum(b.0);
+    (high, low + (a.1 + b.1))
+}
+
+/// The product of two unevaluated sums as one.
+#[inline(always)]
+pub(crate) fn times<R: Real>(a: (R, R), b: (R, R)) -> (R, R) {
+    let (high, low) = a.0.two_prod(b.0);
+    (high, low + (a.0 * b.1 + a.1 * b.0))
+}
+
+/// The square of an unevaluated sum as one.
+#[inline(always)]
+pub(crate) fn squared<R: Real>(a: (R, R)) -> (R, R) {
+    let (high, low) = a.0.two_square();
+    (high, low + lit::<R>(2.0) * a.0 * a.1)
+}
+
 /// A constant as an unevaluated sum.
 #[inline(always)]
 pub(crate) fn split<R: Real>(x: f64) -> (R, R) {

@@ -21,6 +21,8 @@ pub(crate) const TERMS: &[Term] = &[
     G1_GGX,
     G1_BECKMANN,
     G1_BECKMANN_RATIONAL,
+    ONE_MINUS_G1_GGX,
+    ONE_MINUS_G1_BECKMANN,
     G2_GGX,
     G2_GGX_SEPARABLE,
     G2_GGX_HAMMON,
@@ -285,6 +287,58 @@ const G1_BECKMANN_RATIONAL: Term = entry!(
     let a = c / t;
     return a * (3.535 + 2.181 * a) / (1.0 + a * (2.276 + 2.577 * a));
 }")
+);
+
+/// 1 − G₁ of GGX, the share of the facets turned to a direction that it does not see:
+/// Λ/(1 + Λ) = (α sin θ / (c + sqrt(c² + α² s²)))².
+///
+/// Heitz 2014, eq. 43 and 72. Range 0 to 1; at or below the horizon 1. Accurate where G₁ is almost
+/// 1, where the difference from 1 has no digits left.
+#[inline(always)]
+pub fn one_minus_g1_ggx<R: Real>(n_dot_x: R, alpha: R) -> R {
+    if n_dot_x <= lit(0.0) {
+        return lit(1.0);
+    }
+    let c = n_dot_x.at_most(lit(1.0));
+    let across = alpha.bounded() * sine(c);
+    (across / (c + c.hypot(across))).squared()
+}
+
+const ONE_MINUS_G1_GGX: Term = entry!(
+    one_minus_g1_ggx(n_dot_x: N_DOT_X, alpha: ALPHA),
+    symbol: "1 − G₁", latex: r"1 - G_1", cost: 13,
+    doc: "share of the facets of GGX turned to a direction that is hidden from it, 0 to 1",
+    source: "Heitz 2014, eq. 43 and 72",
+    wgsl: Some("fn lobe_one_minus_g1_ggx(n_dot_x: f32, alpha: f32) -> f32 {
+    if (n_dot_x <= 0.0) { return 1.0; }
+    let c = min(n_dot_x, 1.0);
+    let a2 = alpha * alpha * (1.0 - c) * (1.0 + c);
+    let s = c + sqrt(c * c + a2);
+    return a2 / (s * s);
+}")
+);
+
+/// 1 − G₁ of Beckmann: Λ/(1 + Λ), accurate where G₁ is almost 1.
+///
+/// Heitz 2014, eq. 43 with 66. Range 0 to 1; at or below the horizon 1.
+pub fn one_minus_g1_beckmann<R: Real>(n_dot_x: R, alpha: R) -> R {
+    let lambda = lambda_beckmann(n_dot_x, alpha);
+    if lambda > lit(R::LARGE) {
+        return lit(1.0);
+    }
+    lambda / (lit::<R>(1.0) + lambda)
+}
+
+const ONE_MINUS_G1_BECKMANN: Term = entry!(
+    one_minus_g1_beckmann(n_dot_x: N_DOT_X, alpha: ALPHA),
+    symbol: "1 − G₁", latex: r"1 - G_1", cost: 62,
+    doc: "share of the facets of Beckmann's surface turned to a direction that is hidden from it, 0 to 1",
+    source: "Heitz 2014, eq. 43 and 66",
+    wgsl: Some("fn lobe_one_minus_g1_beckmann(n_dot_x: f32, alpha: f32) -> f32 {
+    let lambda = min(lobe_lambda_beckmann(n_dot_x, alpha), 1.0e15);
+    return lambda / (1.0 + lambda);
+}"),
+    needs: ["lambda_beckmann"]
 );
 
 /// Height-correlated G₂ of GGX: 1/(1 + Λ(l) + Λ(v)).

@@ -1,6 +1,7 @@
 //! The formulas from vectors as data.
 
-use crate::ggx::{Fresnel, Ggx, Specular};
+use crate::d::{ALPHA_X, ALPHA_Y};
+use crate::ggx::{Fresnel, Ggx, Specular, v_dot_h_and_rest};
 use crate::real::Real;
 use crate::sampling::Sampler;
 use crate::term::{ALPHA, F0, Param, Term, entry};
@@ -18,6 +19,16 @@ const VECTOR_TERMS: &[Term] = &[
     VECTOR_F_SCHLICK,
     VECTOR_SPECULAR,
     VECTOR_PDF,
+    VECTOR_D_GGX_ANISO,
+    VECTOR_V_GGX_ANISO,
+    VECTOR_LAMBDA_GGX_ANISO,
+    VECTOR_G1_GGX_ANISO,
+    VECTOR_EVAL_GGX_ANISO,
+    VECTOR_PDF_ANISO,
+    VECTOR_PDF_BOUNDED_ANISO,
+    VECTOR_WEIGHT_BOUNDED_ANISO,
+    VECTOR_V_DOT_H,
+    VECTOR_ONE_MINUS_V_DOT_H,
     D_GGX_WORLD,
     SPECULAR_GGX_WORLD,
 ];
@@ -124,6 +135,196 @@ const VECTOR_PDF: Term = entry!(
     symbol: "p", latex: "p", cost: 25,
     doc: "density of lights drawn by the visible normals",
     source: "Heitz 2018; Dupuy and Benyoub 2023",
+    wgsl: None
+);
+
+/// D of a stretched surface, see [`Ggx::d_between`].
+#[allow(clippy::too_many_arguments)]
+fn vector_d_ggx_aniso<R: Real>(
+    l_x: R,
+    l_y: R,
+    l_z: R,
+    v_x: R,
+    v_y: R,
+    v_z: R,
+    alpha_x: R,
+    alpha_y: R,
+) -> R {
+    Ggx { alpha_x, alpha_y }.d_between([l_x, l_y, l_z], [v_x, v_y, v_z])
+}
+
+const VECTOR_D_GGX_ANISO: Term = entry!(
+    vector_d_ggx_aniso(l_x: L_X, l_y: L_Y, l_z: L_Z, v_x: V_X, v_y: V_Y, v_z: V_Z, alpha_x: ALPHA_X, alpha_y: ALPHA_Y),
+    symbol: "D", latex: "D", cost: 20,
+    doc: "D of a stretched GGX surface from light and view in the tangent frame",
+    source: "Burley 2012, eq. 13; Heitz 2014, eq. 85",
+    wgsl: None
+);
+
+/// Visibility of a stretched surface, see [`Ggx::visibility`].
+#[allow(clippy::too_many_arguments)]
+fn vector_v_ggx_aniso<R: Real>(
+    l_x: R,
+    l_y: R,
+    l_z: R,
+    v_x: R,
+    v_y: R,
+    v_z: R,
+    alpha_x: R,
+    alpha_y: R,
+) -> R {
+    Ggx { alpha_x, alpha_y }.visibility([l_x, l_y, l_z], [v_x, v_y, v_z])
+}
+
+const VECTOR_V_GGX_ANISO: Term = entry!(
+    vector_v_ggx_aniso(l_x: L_X, l_y: L_Y, l_z: L_Z, v_x: V_X, v_y: V_Y, v_z: V_Z, alpha_x: ALPHA_X, alpha_y: ALPHA_Y),
+    symbol: "V", latex: "V", cost: 20,
+    doc: "visibility of a stretched GGX surface from light and view in the tangent frame",
+    source: "Heitz 2014, eq. 87 and 99",
+    wgsl: None
+);
+
+/// Λ of a stretched surface, see [`Ggx::lambda`].
+fn vector_lambda_ggx_aniso<R: Real>(v_x: R, v_y: R, v_z: R, alpha_x: R, alpha_y: R) -> R {
+    Ggx { alpha_x, alpha_y }.lambda([v_x, v_y, v_z])
+}
+
+const VECTOR_LAMBDA_GGX_ANISO: Term = entry!(
+    vector_lambda_ggx_aniso(v_x: V_X, v_y: V_Y, v_z: V_Z, alpha_x: ALPHA_X, alpha_y: ALPHA_Y),
+    symbol: "Λ", latex: r"\Lambda", cost: 15,
+    doc: "Lambda of a stretched GGX surface from a direction in the tangent frame",
+    source: "Heitz 2014, eq. 72 and 80",
+    wgsl: None
+);
+
+/// G₁ of a stretched surface, see [`Ggx::g1`].
+fn vector_g1_ggx_aniso<R: Real>(v_x: R, v_y: R, v_z: R, alpha_x: R, alpha_y: R) -> R {
+    Ggx { alpha_x, alpha_y }.g1([v_x, v_y, v_z])
+}
+
+const VECTOR_G1_GGX_ANISO: Term = entry!(
+    vector_g1_ggx_aniso(v_x: V_X, v_y: V_Y, v_z: V_Z, alpha_x: ALPHA_X, alpha_y: ALPHA_Y),
+    symbol: "G₁", latex: "G_1", cost: 15,
+    doc: "masking of a stretched GGX surface from a direction in the tangent frame",
+    source: "Heitz 2014, eq. 43, 72 and 80",
+    wgsl: None
+);
+
+/// D V of a stretched surface, see [`Ggx::eval`].
+#[allow(clippy::too_many_arguments)]
+fn vector_eval_ggx_aniso<R: Real>(
+    l_x: R,
+    l_y: R,
+    l_z: R,
+    v_x: R,
+    v_y: R,
+    v_z: R,
+    alpha_x: R,
+    alpha_y: R,
+) -> R {
+    Ggx { alpha_x, alpha_y }.eval([l_x, l_y, l_z], [v_x, v_y, v_z])
+}
+
+const VECTOR_EVAL_GGX_ANISO: Term = entry!(
+    vector_eval_ggx_aniso(l_x: L_X, l_y: L_Y, l_z: L_Z, v_x: V_X, v_y: V_Y, v_z: V_Z, alpha_x: ALPHA_X, alpha_y: ALPHA_Y),
+    symbol: "D V", latex: "D V", cost: 45,
+    doc: "specular BRDF of a stretched GGX surface with F = 1",
+    source: "Walter et al. 2007, eq. 20; Heitz 2014, eq. 99",
+    wgsl: None
+);
+
+/// Density of the visible normals, see [`Ggx::pdf`].
+#[allow(clippy::too_many_arguments)]
+fn vector_pdf_aniso<R: Real>(
+    l_x: R,
+    l_y: R,
+    l_z: R,
+    v_x: R,
+    v_y: R,
+    v_z: R,
+    alpha_x: R,
+    alpha_y: R,
+) -> R {
+    Ggx { alpha_x, alpha_y }.pdf([l_x, l_y, l_z], [v_x, v_y, v_z], Sampler::SphericalCap)
+}
+
+const VECTOR_PDF_ANISO: Term = entry!(
+    vector_pdf_aniso(l_x: L_X, l_y: L_Y, l_z: L_Z, v_x: V_X, v_y: V_Y, v_z: V_Z, alpha_x: ALPHA_X, alpha_y: ALPHA_Y),
+    symbol: "p", latex: "p", cost: 25,
+    doc: "density of lights drawn by the visible normals of a stretched surface",
+    source: "Heitz 2018; Dupuy and Benyoub 2023",
+    wgsl: None
+);
+
+/// Density of bounded caps, see [`Ggx::pdf`].
+#[allow(clippy::too_many_arguments)]
+fn vector_pdf_bounded_aniso<R: Real>(
+    l_x: R,
+    l_y: R,
+    l_z: R,
+    v_x: R,
+    v_y: R,
+    v_z: R,
+    alpha_x: R,
+    alpha_y: R,
+) -> R {
+    Ggx { alpha_x, alpha_y }.pdf([l_x, l_y, l_z], [v_x, v_y, v_z], Sampler::BoundedCap)
+}
+
+const VECTOR_PDF_BOUNDED_ANISO: Term = entry!(
+    vector_pdf_bounded_aniso(l_x: L_X, l_y: L_Y, l_z: L_Z, v_x: V_X, v_y: V_Y, v_z: V_Z, alpha_x: ALPHA_X, alpha_y: ALPHA_Y),
+    symbol: "p", latex: "p", cost: 30,
+    doc: "density of lights drawn by bounded caps of a stretched surface",
+    source: "Eto and Tokuyoshi 2023",
+    wgsl: None
+);
+
+/// Weight of bounded caps, see [`Ggx::weight`].
+#[allow(clippy::too_many_arguments)]
+fn vector_weight_bounded_aniso<R: Real>(
+    l_x: R,
+    l_y: R,
+    l_z: R,
+    v_x: R,
+    v_y: R,
+    v_z: R,
+    alpha_x: R,
+    alpha_y: R,
+) -> R {
+    Ggx { alpha_x, alpha_y }.weight([l_x, l_y, l_z], [v_x, v_y, v_z], Sampler::BoundedCap)
+}
+
+const VECTOR_WEIGHT_BOUNDED_ANISO: Term = entry!(
+    vector_weight_bounded_aniso(l_x: L_X, l_y: L_Y, l_z: L_Z, v_x: V_X, v_y: V_Y, v_z: V_Z, alpha_x: ALPHA_X, alpha_y: ALPHA_Y),
+    symbol: "w", latex: "w", cost: 40,
+    doc: "weight of lights drawn by bounded caps of a stretched surface",
+    source: "Eto and Tokuyoshi 2023",
+    wgsl: None
+);
+
+/// V·H, see [`v_dot_h_and_rest`].
+fn vector_v_dot_h<R: Real>(l_x: R, l_y: R, l_z: R, v_x: R, v_y: R, v_z: R) -> R {
+    v_dot_h_and_rest([l_x, l_y, l_z], [v_x, v_y, v_z]).0
+}
+
+const VECTOR_V_DOT_H: Term = entry!(
+    vector_v_dot_h(l_x: L_X, l_y: L_Y, l_z: L_Z, v_x: V_X, v_y: V_Y, v_z: V_Z),
+    symbol: "V·H", latex: r"V \cdot H", cost: 12,
+    doc: "cosine between view and half vector, from vectors",
+    source: "Hammon 2017",
+    wgsl: None
+);
+
+/// 1 − V·H, see [`v_dot_h_and_rest`].
+fn vector_one_minus_v_dot_h<R: Real>(l_x: R, l_y: R, l_z: R, v_x: R, v_y: R, v_z: R) -> R {
+    v_dot_h_and_rest([l_x, l_y, l_z], [v_x, v_y, v_z]).1
+}
+
+const VECTOR_ONE_MINUS_V_DOT_H: Term = entry!(
+    vector_one_minus_v_dot_h(l_x: L_X, l_y: L_Y, l_z: L_Z, v_x: V_X, v_y: V_Y, v_z: V_Z),
+    symbol: "1 − V·H", latex: r"1 - V \cdot H", cost: 20,
+    doc: "1 minus the cosine between view and half vector, from vectors",
+    source: "Hammon 2017",
     wgsl: None
 );
 

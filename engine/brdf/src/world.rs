@@ -5,7 +5,7 @@
 //! frame is known, [`crate::Ggx`] is better. All vectors are expected to have length 1.
 
 use crate::ggx::Fresnel;
-use crate::real::{Real, lit, quotient, zero_unless_nan};
+use crate::real::{Real, lit, plus, quotient, squared, times, zero_unless_nan};
 use crate::smith::projected;
 use crate::vector::{Vector, tamed};
 use std::f64::consts::FRAC_1_PI;
@@ -62,7 +62,7 @@ fn d_of<R: Real>(n: Vector<R>, l: Vector<R>, v: Vector<R>, alpha: R) -> R {
     )
 }
 
-fn d_of_half<R: Real>(n: Vector<R>, h: [Sum<R>; 3], alpha: R) -> R {
+fn d_of_half<R: Real>(n: Vector<R>, h: [(R, R); 3], alpha: R) -> R {
     let c = dot_sum(n, h);
     if c.0 < lit(0.0) {
         return zero_unless_nan([c.0, alpha]);
@@ -135,30 +135,9 @@ fn eval_cos_of<R: Real>(n: Vector<R>, l: Vector<R>, v: Vector<R>, alpha: R) -> R
     d_of(n, l, v, alpha) * visible
 }
 
-/// A number as an unevaluated sum: rounded, and what rounding took.
-type Sum<R> = (R, R);
-
-#[inline(always)]
-fn plus<R: Real>(a: Sum<R>, b: Sum<R>) -> Sum<R> {
-    let (high, low) = a.0.two_sum(b.0);
-    (high, low + (a.1 + b.1))
-}
-
-#[inline(always)]
-fn times<R: Real>(a: Sum<R>, b: Sum<R>) -> Sum<R> {
-    let (high, low) = a.0.two_prod(b.0);
-    (high, low + (a.0 * b.1 + a.1 * b.0))
-}
-
-#[inline(always)]
-fn squared<R: Real>(a: Sum<R>) -> Sum<R> {
-    let (high, low) = a.0.two_square();
-    (high, low + lit::<R>(2.0) * a.0 * a.1)
-}
-
 /// n · h of a sum kept with its rounding errors: where it almost vanishes its digits are there.
 #[inline(always)]
-fn dot_sum<R: Real>(n: Vector<R>, h: [Sum<R>; 3]) -> Sum<R> {
+fn dot_sum<R: Real>(n: Vector<R>, h: [(R, R); 3]) -> (R, R) {
     let [x, y, z] = [0, 1, 2].map(|i| {
         let (p, p_low) = n[i].two_prod(h[i].0);
         (p, p_low + n[i] * h[i].1)

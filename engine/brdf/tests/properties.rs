@@ -72,6 +72,8 @@ proptest! {
     #[test]
     fn smith_hangs_together((l, v, _) in pair(), a in width()) {
         close(g1_ggx(v, a), 1.0 / (1.0 + lambda_ggx(v, a)), 1e-15);
+        close(one_minus_g1_ggx(v, a), 1.0 - g1_ggx(v, a), 1e-15 / one_minus_g1_ggx(v, a).max(1e-300));
+        close(one_minus_g1_ggx(v, a), lambda_ggx(v, a) * g1_ggx(v, a), 1e-14);
         close(v_ggx(l, v, a), g2_ggx(l, v, a) / (4.0 * l * v), 1e-14);
         close(v_ggx_separable(l, v, a), g1_ggx(l, a) * g1_ggx(v, a) / (4.0 * l * v), 1e-14);
         close(v_ggx_hammon(l, v, a), g2_ggx_hammon(l, v, a) / (4.0 * l * v), 1e-14);

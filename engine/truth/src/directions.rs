@@ -22,14 +22,33 @@ pub(crate) fn evaluate_vectors(name: &str, args: &[Big], bits: usize) -> Big {
             Some((_, n_dot_h)) => form("d_ggx", &[&n_dot_h, a]),
             None => Big::none(),
         },
-        ("vector_lambda_ggx", [x, y, z, a]) => {
-            ((1.0 + sq(a) * (sq(x) + sq(y)) / sq(z)).sqrt() - 1.0) / 2.0
+        ("vector_d_ggx_aniso", [x, y, z, vx, vy, vz, ax, ay]) => {
+            let h = normalize(&[x + vx, y + vy, z + vz]);
+            if h[2].is_negative() {
+                return Big::new(0.0, bits);
+            }
+            form("d_ggx_aniso", &[&h[0], &h[1], &h[2], ax, ay])
+        }
+        ("vector_lambda_ggx", [x, y, z, a]) => form("vector_lambda_ggx_aniso", &[x, y, z, a, a]),
+        ("vector_lambda_ggx_aniso", [x, y, z, ax, ay]) => {
+            ((1.0 + (sq(&(ax * x)) + sq(&(ay * y))) / sq(z)).sqrt() - 1.0) / 2.0
+        }
+        ("vector_g1_ggx_aniso", args) => {
+            1.0 / (1.0 + evaluate("vector_lambda_ggx_aniso", args, bits))
         }
         ("vector_v_ggx", [x, y, z, vx, vy, vz, a]) => {
-            let sum = form("vector_lambda_ggx", &[x, y, z, a])
-                + form("vector_lambda_ggx", &[vx, vy, vz, a]);
+            form("vector_v_ggx_aniso", &[x, y, z, vx, vy, vz, a, a])
+        }
+        ("vector_v_ggx_aniso", [x, y, z, vx, vy, vz, ax, ay]) => {
+            let sum = form("vector_lambda_ggx_aniso", &[x, y, z, ax, ay])
+                + form("vector_lambda_ggx_aniso", &[vx, vy, vz, ax, ay]);
             1.0 / (1.0 + sum) / (4.0 * z * vz)
         }
+        ("vector_eval_ggx_aniso", args) => {
+            evaluate("vector_d_ggx_aniso", args, bits) * evaluate("vector_v_ggx_aniso", args, bits)
+        }
+        ("vector_v_dot_h", lv) => half_vector(lv).map_or(Big::none(), |(v_dot_h, _)| v_dot_h),
+        ("vector_one_minus_v_dot_h", lv) => 1.0 - evaluate("vector_v_dot_h", lv, bits),
         ("vector_f_schlick", [lv @ .., f0]) => match half_vector(lv) {
             Some((v_dot_h, _)) => form("f_schlick", &[f0, &v_dot_h]),
             None => Big::none(),
@@ -40,30 +59,43 @@ pub(crate) fn evaluate_vectors(name: &str, args: &[Big], bits: usize) -> Big {
                 * form("vector_f_schlick", &[x, y, z, vx, vy, vz, f0])
                 * z
         }
+        ("cosines_specular", [l, v, h, u, f0, a]) => {
+            form("d_ggx", &[h, a]) * form("v_ggx", &[l, v, a]) * form("f_schlick", &[f0, u]) * l
+        }
         // G₁ D/(4 N·V).
         ("vector_pdf", [x, y, z, vx, vy, vz, a]) => {
-            let g1 = 1.0 / (1.0 + form("vector_lambda_ggx", &[vx, vy, vz, a]));
-            form("vector_d_ggx", &[x, y, z, vx, vy, vz, a]) * g1 / (4.0 * vz)
+            form("vector_pdf_aniso", &[x, y, z, vx, vy, vz, a, a])
+        }
+        ("vector_pdf_aniso", [x, y, z, vx, vy, vz, ax, ay]) => {
+            let g1 = form("vector_g1_ggx_aniso", &[vx, vy, vz, ax, ay]);
+            form("vector_d_ggx_aniso", &[x, y, z, vx, vy, vz, ax, ay]) * g1 / (4.0 * vz)
         }
         // Eto and Tokuyoshi 2023: D/(2 (k N·V + sqrt(…))).
         ("vector_pdf_bounded", [x, y, z, vx, vy, vz, a]) => {
-            let d = form("vector_d_ggx", &[x, y, z, vx, vy, vz, a]);
-            d / (2.0 * (cap_bound(vx, vy, vz, a) * vz + stretched_length(vx, vy, vz, a)))
+            form("vector_pdf_bounded_aniso", &[x, y, z, vx, vy, vz, a, a])
+        }
+        ("vector_pdf_bounded_aniso", [x, y, z, vx, vy, vz, ax, ay]) => {
+            let d = form("vector_d_ggx_aniso", &[x, y, z, vx, vy, vz, ax, ay]);
+            let bound = cap_bound(vx, vy, vz, &ax.min(ay));
+            d / (2.0 * (bound * vz + length(&(ax * vx), &(ay * vy), vz)))
         }
         // G₂/G₁.
-        ("vector_weight", [_, _, z, ..]) | ("vector_weight_bounded", [_, _, z, ..])
-            if !z.is_positive() =>
-        {
-            Big::new(0.0, bits)
-        }
+        (
+            "vector_weight" | "vector_weight_bounded" | "vector_weight_bounded_aniso",
+            [_, _, z, ..],
+        ) if !z.is_positive() => Big::new(0.0, bits),
         ("vector_weight", [x, y, z, vx, vy, vz, a]) => {
             let view = 1.0 + form("vector_lambda_ggx", &[vx, vy, vz, a]);
             &view / (&view + form("vector_lambda_ggx", &[x, y, z, a]))
         }
         // D V N·L over the density, D cancelled.
         ("vector_weight_bounded", [x, y, z, vx, vy, vz, a]) => {
-            let share = cap_bound(vx, vy, vz, a) * vz + stretched_length(vx, vy, vz, a);
-            form("vector_v_ggx", &[x, y, z, vx, vy, vz, a]) * z * 2.0 * share
+            form("vector_weight_bounded_aniso", &[x, y, z, vx, vy, vz, a, a])
+        }
+        ("vector_weight_bounded_aniso", [x, y, z, vx, vy, vz, ax, ay]) => {
+            let bound = cap_bound(vx, vy, vz, &ax.min(ay));
+            let share = bound * vz + length(&(ax * vx), &(ay * vy), vz);
+            form("vector_v_ggx_aniso", &[x, y, z, vx, vy, vz, ax, ay]) * z * 2.0 * share
         }
 
         ("sample_hemisphere", [x, y, z, a, u0, u1]) => {
@@ -126,11 +158,6 @@ fn half_vector(lv: &[Big]) -> Option<(Big, Big)> {
         &(z / &l + vz / &v),
     ) / 2.0;
     Some((v_dot_h, n_dot_h))
-}
-
-/// sqrt(α² (x² + y²) + z²).
-fn stretched_length(x: &Big, y: &Big, z: &Big, a: &Big) -> Big {
-    length(&(a * x), &(a * y), z)
 }
 
 /// Eto and Tokuyoshi 2023, k = (1 − α²) s²/(s² + α² z²), s = 1 + sqrt(x² + y²).

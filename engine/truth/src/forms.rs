@@ -46,6 +46,8 @@ pub(crate) fn evaluate(name: &str, args: &[Big], bits: usize) -> Big {
             (erf(&t, &pi) - 1.0) / 2.0 + gauss / (2.0 * &t * pi.sqrt())
         }
         ("g1_ggx", [c, a]) => 1.0 / (1.0 + form("lambda_ggx", &[c, a])),
+        ("one_minus_g1_ggx", args) => 1.0 - evaluate("g1_ggx", args, bits),
+        ("one_minus_g1_beckmann", args) => 1.0 - evaluate("g1_beckmann", args, bits),
         ("g1_beckmann", [c, a]) => 1.0 / (1.0 + form("lambda_beckmann", &[c, a])),
         ("g1_beckmann_rational", [c, _]) if (1.0 - c).is_zero() => c.clone(),
         ("g1_beckmann_rational", [c, a]) => {
@@ -203,6 +205,10 @@ pub(crate) fn evaluate(name: &str, args: &[Big], bits: usize) -> Big {
             form("d_ggx", &[h, &sq(r)]) * form("v_ggx", &[l, v, &sq(r)])
         }
 
+        ("f_schlick_average", [f0]) => (1.0 + 20.0 * f0) / 21.0,
+        ("f0_from_ior", [n]) => sq(&((n - 1.0) / (n + 1.0))),
+        ("f0_from_metallic", [base, m]) => ratio(4.0, 100.0) * (1.0 - m) + base * m,
+        ("multi_scattering_tint", [f, e]) => sq(f) * e / (1.0 - f * (1.0 - e)),
         ("f_multi_kulla_conty", [l, v, average]) => (1.0 - l) * (1.0 - v) / (&pi * (1.0 - average)),
         ("compensation_turquin", [f0, e]) => 1.0 + f0 * (1.0 - e) / e,
         ("albedo_ggx_karis", [f0, mu, r]) => {

@@ -153,7 +153,7 @@ impl<S: Lanes, V: Source, A: Source, M: Mirror> Kernel<S> for AnyCosines<'_, V, 
         let (h, v) = (self.half.at::<S>(at), self.view.at::<S>(at));
         let t = h.one_minus_square().mul_add(S::splat(1.0) - a2, a2);
         let w = l.mul_add(root_v, v * root_l);
-        a2 * lit(0.5 * FRAC_1_PI) * l / (t * t * w)
+        a2 * lit(0.5 * FRAC_1_PI) * l / (t * t * w).at_least(S::splat(LEAST))
     }
 
     #[inline(always)]
@@ -162,6 +162,9 @@ impl<S: Lanes, V: Source, A: Source, M: Mirror> Kernel<S> for AnyCosines<'_, V, 
         self.out.put(at, self.mirror.times(at, value));
     }
 }
+
+/// A divisor is at least this: where both cosines are denormal, 0 over 0 would be left.
+const LEAST: f32 = f32::MIN_POSITIVE;
 
 /// sqrt(α² + (1 − α²) x²) of a cosine.
 #[inline(always)]
@@ -345,6 +348,9 @@ struct Directed<'a, L, V, A, F> {
     out: Out<'a>,
 }
 
+/// The factor, 2⁶⁰, by which dividend and divisor are larger than they would be.
+const GROWN: f64 = (1u64 << 60) as f64;
+
 /// What the roots of a pair of directions leave to the quotients.
 struct Rooted<S> {
     /// Heights of light and view.
@@ -387,9 +393,9 @@ impl<S: Lanes, L: Directions, V: Directions, A: Source, F: Source> Kernel<S>
             // Of directions of length 1.
             root_l: root(up, a2, rest),
             root_v: root(v[2], a2, rest),
-            dividend: m * m * (up * (a2 * lit(0.5 * FRAC_1_PI))),
-            // No α that is allowed makes it underflow.
-            t2: t * t,
+            dividend: m * m * (up * (a2 * lit(0.5 * FRAC_1_PI * GROWN))),
+            // Almost opposite directions have almost no half vector: its fourth power vanishes.
+            t2: t * (t * lit(GROWN)),
             difference2,
             sum: m.sqrt(),
         }
@@ -400,8 +406,9 @@ impl<S: Lanes, L: Directions, V: Directions, A: Source, F: Source> Kernel<S>
         let w = first.l.mul_add(first.root_v, first.v * first.root_l);
         // |l − v|²/(4 (1 + V·H)) with V·H = |l + v|/2.
         let below = S::splat(2.0).mul_add(first.sum, S::splat(4.0));
+        let divisor = (first.t2 * w).at_least(S::splat(LEAST));
         [
-            first.v.masks(first.dividend / (first.t2 * w)),
+            first.v.masks(first.dividend / divisor),
             first.difference2 / below,
         ]
     }

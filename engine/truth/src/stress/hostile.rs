@@ -120,7 +120,7 @@ pub(super) fn sweep(
 }
 
 fn fault(subject: &Subject, args: &[f64], result: f64) -> Option<Fault> {
-    if args.iter().any(|arg| arg.is_nan()) {
+    if args.iter().any(|arg| arg.is_nan()) || subject.is_batch() && !promised(subject, args) {
         None
     } else if result.is_nan() {
         Some(Fault::NotANumber)
@@ -129,6 +129,27 @@ fn fault(subject: &Subject, args: &[f64], result: f64) -> Option<Fault> {
     } else {
         None
     }
+}
+
+/// Whether a batch says what it gives for these arguments: α from 1e-4, everything else in its
+/// range but cosines and heights below 0, and vectors of length 1.
+fn promised(subject: &Subject, args: &[f64]) -> bool {
+    let inside = |(param, &arg): (&Param, &f64)| match param.name {
+        "alpha" => (1e-4..=1.0).contains(&arg),
+        name if name.contains("_dot_") => (-1.0..=1.0).contains(&arg),
+        name if name.ends_with("_z") => true,
+        _ => (param.range.0..=param.range.1).contains(&arg),
+    };
+    are_directions(&subject.params, args) && subject.params.iter().zip(args).all(inside)
+}
+
+/// Whether all vectors among the arguments are of length 1.
+fn are_directions(params: &[Param], args: &[f64]) -> bool {
+    let mut first = params.iter().enumerate();
+    first.all(|(i, param)| {
+        let length2 = |i: usize| args[i..i + 3].iter().map(|x| x * x).sum::<f64>();
+        !matches!(param.name, "n_x" | "l_x" | "v_x") || (length2(i) - 1.0).abs() < 1e-6
+    })
 }
 
 /// Whether the model is nowhere negative. The full Oren-Nayar is at a few grazing points,
@@ -164,6 +185,7 @@ fn sensible(params: &[Param], args: &[f64]) -> bool {
 fn exists(subject: &Subject, precision: Precision, args: &[f64]) -> bool {
     let inside = |(param, &arg): (&Param, &f64)| match param.name {
         // In the world nothing is exactly at the peak of a mirror.
+        "alpha" if subject.is_batch() => (1e-4..=1.0).contains(&arg),
         "alpha" | "alpha_x" | "alpha_y" => {
             arg == 0.0 && !subject.is_ill_conditioned() || (1e-18..=1.0).contains(&arg)
         }
@@ -171,16 +193,8 @@ fn exists(subject: &Subject, precision: Precision, args: &[f64]) -> bool {
         name if name.contains("_dot_") => (0.0..=1.0).contains(&arg),
         _ => (param.range.0..=param.range.1).contains(&arg),
     };
-    let mut vectors = subject
-        .params
-        .iter()
-        .enumerate()
-        .filter(|(_, param)| matches!(param.name, "n_x" | "l_x" | "v_x"));
-    let unit = vectors.all(|(i, _)| {
-        let length2: f64 = args[i..i + 3].iter().map(|x| x * x).sum();
-        (length2 - 1.0).abs() < 1e-6
-    });
-    unit && subject.params.iter().zip(args).all(inside)
+    are_directions(&subject.params, args)
+        && subject.params.iter().zip(args).all(inside)
         && subject
             .truth(precision, args)
             .is_some_and(|truth| truth.abs().to_f64() <= 1e-3 * precision.largest())

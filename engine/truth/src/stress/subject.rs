@@ -1,6 +1,6 @@
 //! What can be searched: terms, formulas from vectors, samplers and coordinates.
 
-use super::Precision;
+use super::{Precision, others};
 use crate::{Big, at_precision, value};
 use brdf::{Ggx, Param, Rusinkiewicz, Sampler, Term};
 use std::sync::LazyLock;
@@ -12,15 +12,15 @@ pub struct Subject {
     pub name: &'static str,
     /// Arguments in order.
     pub params: Vec<Param>,
-    single: Single,
-    double: Double,
-    against: Against,
+    pub(super) single: Single,
+    pub(super) double: Double,
+    pub(super) against: Against,
 }
 
-type Double = fn(&[f64]) -> f64;
+pub(super) type Double = fn(&[f64]) -> f64;
 
 #[derive(Debug, Clone, Copy)]
-enum Single {
+pub(super) enum Single {
     Value(fn(&[f32]) -> f32),
     /// Of a vector there is one number to look at, and taking it must not add an error.
     Exact(fn(&[f32]) -> f64),
@@ -28,7 +28,7 @@ enum Single {
 
 /// What the truth is a function of, and what its errors are compared with.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Against {
+pub(super) enum Against {
     /// The textbook form of the same name at the same arguments.
     Form,
     /// The same, but an error as large as what half a unit in the last place of each argument
@@ -37,6 +37,8 @@ enum Against {
     /// The textbook form of that name at what the subject drew: rounded, a direction is another
     /// direction, and its density and weight are that one's.
     Drawn(&'static str, Sampler),
+    /// The textbook form of that name: of a batch, in single precision only.
+    Batch(&'static str),
     /// The same function in double precision: of a quadrature there is no form.
     Double,
 }
@@ -70,7 +72,7 @@ impl Subject {
 
     /// Whether it can be looked at in that precision.
     pub fn has(&self, precision: Precision) -> bool {
-        precision == Precision::Single || self.against != Against::Double
+        precision == Precision::Single || !(self.is_batch() || self.against == Against::Double)
     }
 
     /// Whether the rounding of its arguments is allowed for.
@@ -78,12 +80,18 @@ impl Subject {
         self.against == Against::Jitter
     }
 
-    /// How much of an effort it takes: a quadrature is thousands of times a formula.
+    /// Whether it promises nothing outside the ranges of its arguments.
+    pub(super) fn is_batch(&self) -> bool {
+        matches!(self.against, Against::Batch(_))
+    }
+
+    /// How much of the effort it is worth: a quadrature is thousands of times a formula.
     pub(super) fn share(&self) -> f64 {
-        if self.against == Against::Double {
-            0.003
-        } else {
-            1.0
+        match self.name {
+            _ if self.against == Against::Double => 0.003,
+            // A fit for each point.
+            "batch_conductor" | "batch_conductor_baseline" => 0.02,
+            _ => 1.0,
         }
     }
 
@@ -106,6 +114,7 @@ impl Subject {
         match self.against {
             Against::Form | Against::Jitter => value(self.name, args),
             Against::Drawn(form, sampler) => value(form, &drawn(sampler, precision, args)),
+            Against::Batch(form) => value(form, args),
             Against::Double => Some(Big::new((self.double)(args), 192)),
         }
     }
@@ -119,6 +128,7 @@ impl Subject {
                 at_precision(form, &drawn(sampler, Precision::Double, args), BITS)
             }
             Against::Double => None,
+            Against::Batch(form) => at_precision(form, args, BITS),
             Against::Form | Against::Jitter => at_precision(self.name, args, BITS),
         }
     }
@@ -166,7 +176,9 @@ pub fn subjects() -> &'static [Subject] {
         };
         let terms = brdf::terms().iter().chain(brdf::vector_terms());
         let mut all: Vec<Subject> = terms.map(Subject::of).filter(measurable).collect();
+        all.extend(others::functions());
         all.extend(samplers());
+        all.extend(others::batches());
         all.push(coordinates());
         all
     });
