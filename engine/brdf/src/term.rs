@@ -17,6 +17,26 @@ pub struct Param {
     pub meaning: &'static str,
 }
 
+impl Param {
+    /// Whether it describes the material and not a direction, so that it is mostly the same at
+    /// many points.
+    pub const fn is_of_material(&self) -> bool {
+        is_of_material(self.name)
+    }
+}
+
+/// [`Param::is_of_material`] by the name: directions are cosines (`n_dot_l`, `cos_phi`) or
+/// coordinates (`h_x`).
+const fn is_of_material(name: &str) -> bool {
+    let name = name.as_bytes();
+    !matches!(
+        name,
+        [b'c', b'o', b's', b'_', ..]
+            | [_, b'_', b'd', b'o', b't', b'_', _]
+            | [_, b'_', b'x' | b'y' | b'z']
+    )
+}
+
 /// A formula with everything that belongs to it.
 #[derive(Debug, Clone, Copy)]
 pub struct Term {
@@ -37,8 +57,10 @@ pub struct Term {
     /// Value computed in single precision throughout; NaN if the number of arguments is wrong.
     pub f32: fn(&[f32]) -> f32,
     /// The same at many points: a slice for each argument, all as long as the result; what is
-    /// longer is cut. The values are those of `f64` to the last bit. NaN everywhere if the
-    /// number of arguments is wrong.
+    /// longer is cut. A slice of one value stands for all points; the function is faster where
+    /// those are all arguments that [are of the material](Param::is_of_material) and no others.
+    /// The values are those of `f64` to the last bit. NaN everywhere if the number of arguments
+    /// is wrong.
     pub f64_block: fn(Isa, &[&[f64]], &mut [f64]),
     /// The same in single precision throughout.
     pub f32_block: fn(Isa, &[&[f32]], &mut [f32]),
@@ -118,39 +140,137 @@ macro_rules! entry {
 pub(crate) use entry;
 
 /// Makes `each`, which evaluates a function at many points. Where the function's arithmetic is
-/// inlined and free of branches, the loop works on several points at a time; AVX-512 divides and
-/// takes roots no faster than AVX2, so there is no loop for it.
+/// inlined and free of branches, the loop works on several points at a time, and what depends on
+/// the material alone is computed once; AVX-512 divides and takes roots no faster than AVX2, so
+/// there is no loop for it.
 macro_rules! block {
     ($name:ident::<$real:ident>($($arg:ident),+)) => {
+        const NAMES: &[&str] = &[$(stringify!($arg)),+];
+        const MATERIAL: u32 = $crate::term::of_material(NAMES);
+        /// With the arguments in `SAME`, a bit for each, of which only the first value counts.
         #[inline(always)]
-        fn body(args: &[&[$real]], out: &mut [$real]) {
+        fn body<const SAME: u32>(args: &[&[$real]], out: &mut [$real]) {
             let [$($arg),+] = *args else {
                 return out.fill($real::NAN);
             };
-            let count = out.len()$(.min($arg.len()))+;
-            $(let $arg = &$arg[..count];)+
-            for (index, out) in out[..count].iter_mut().enumerate() {
-                *out = $name::<$real>($($arg[index]),+);
+            let mut count = out.len();
+            $(if SAME & const { $crate::term::bit(NAMES, stringify!($arg)) } == 0 {
+                count = count.min($arg.len());
+            })+
+            // The values, or the one that it is: read before the loop, which then need not look again.
+            $(let $arg = match SAME & const { $crate::term::bit(NAMES, stringify!($arg)) } {
+                0 => (&$arg[..count], $real::NAN),
+                _ => (&$arg[..0], $arg[0]),
+            };)+
+            let out = &mut out[..count];
+            // An index, and no iterators: so it is plain to the compiler that none is out of
+            // bounds, and the loop has no end that it works on one by one.
+            for index in 0..count {
+                out[index] = $name::<$real>($(
+                    match SAME & const { $crate::term::bit(NAMES, stringify!($arg)) } {
+                        0 => $arg.0[index],
+                        _ => $arg.1,
+                    }
+                ),+);
             }
         }
         #[cfg(target_arch = "x86_64")]
         #[target_feature(enable = "avx2")]
-        fn avx2(args: &[&[$real]], out: &mut [$real]) {
-            body(args, out);
+        fn avx2<const SAME: u32>(args: &[&[$real]], out: &mut [$real]) {
+            body::<SAME>(args, out);
         }
-        fn each(isa: $crate::batch::Isa, args: &[&[$real]], out: &mut [$real]) {
+        fn on<const SAME: u32>(isa: $crate::batch::Isa, args: &[&[$real]], out: &mut [$real]) {
             match isa.level() {
-                $crate::batch::Level::Baseline => body(args, out),
+                $crate::batch::Level::Baseline => body::<SAME>(args, out),
                 // SAFETY: a level is named only where its instructions, AVX2 among them, were found.
                 #[cfg(target_arch = "x86_64")]
                 $crate::batch::Level::Avx2 | $crate::batch::Level::Avx512 => unsafe {
-                    avx2(args, out)
+                    avx2::<SAME>(args, out)
                 },
+            }
+        }
+        fn each(isa: $crate::batch::Isa, args: &[&[$real]], out: &mut [$real]) {
+            let same = $crate::term::same(args, out.len());
+            if same == 0 {
+                on::<0>(isa, args, out);
+            } else if same == MATERIAL {
+                on::<MATERIAL>(isa, args, out);
+            } else {
+                $crate::term::spread(args, out, |args, out| on::<0>(isa, args, out));
             }
         }
     };
 }
 pub(crate) use block;
+
+/// The bit of an argument.
+pub(crate) const fn bit(names: &[&str], name: &str) -> u32 {
+    let mut index = 0;
+    while index < names.len() {
+        if equal(names[index].as_bytes(), name.as_bytes()) {
+            return 1 << index;
+        }
+        index += 1;
+    }
+    0
+}
+
+const fn equal(a: &[u8], b: &[u8]) -> bool {
+    let mut index = 0;
+    while index < a.len() && index < b.len() && a[index] == b[index] {
+        index += 1;
+    }
+    index == a.len() && index == b.len()
+}
+
+/// The bits of the arguments that are of the material.
+pub(crate) const fn of_material(names: &[&str]) -> u32 {
+    let (mut bits, mut index) = (0, 0);
+    while index < names.len() {
+        if is_of_material(names[index]) {
+            bits |= 1 << index;
+        }
+        index += 1;
+    }
+    bits
+}
+
+/// The bits of the arguments of which one value stands for all points.
+pub(crate) fn same<R>(args: &[&[R]], points: usize) -> u32 {
+    let one = |arg: &&[R]| u32::from(arg.len() == 1 && points > 1);
+    let bits = args
+        .iter()
+        .enumerate()
+        .map(|(index, arg)| one(arg) << index);
+    bits.sum()
+}
+
+/// Evaluates some points after the other, with what is the same for all written out.
+pub(crate) fn spread<R: Copy>(
+    args: &[&[R]],
+    out: &mut [R],
+    mut each: impl FnMut(&[&[R]], &mut [R]),
+) {
+    const POINTS: usize = 64;
+    let point = |arg: &&[R]| {
+        if arg.len() == 1 {
+            usize::MAX
+        } else {
+            arg.len()
+        }
+    };
+    let count = args.iter().map(point).fold(out.len(), usize::min);
+    for start in (0..count).step_by(POINTS) {
+        let end = (start + POINTS).min(count);
+        let column = |arg: &&[R]| match **arg {
+            [only] => vec![only; end - start],
+            _ => arg[start..end].to_vec(),
+        };
+        let columns: Vec<Vec<R>> = args.iter().map(column).collect();
+        let slices: Vec<&[R]> = columns.iter().map(Vec::as_slice).collect();
+        each(&slices, &mut out[start..end]);
+    }
+}
 
 const fn param(
     name: &'static str,

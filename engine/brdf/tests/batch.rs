@@ -280,6 +280,40 @@ fn every_term_is_the_same_in_lanes() {
     }
 }
 
+/// One value for all points is the same as that value at each.
+#[test]
+fn an_argument_may_be_one_value() {
+    const COUNT: usize = 100;
+    for term in terms().iter().filter(|term| term.cost < 10_000) {
+        let value = |i: usize, k: usize| {
+            let (low, high) = term.params[i].range;
+            low + (high - low) * (((k * 7 + 3 * i + 1) % COUNT) as f64 / COUNT as f64)
+        };
+        let all = term.params.len();
+        let material: Vec<bool> = term.params.iter().map(Param::is_of_material).collect();
+        let one = (0..all).map(|only| (0..all).map(|i| i == only).collect());
+        for same in one.chain([material, vec![true; all]]) {
+            let same: Vec<bool> = same;
+            let at = |i: usize, k: usize| value(i, if same[i] { 5 } else { k });
+            let column = |i: usize| (0..COUNT).map(|k| at(i, k)).collect::<Vec<f64>>();
+            let columns: Vec<Vec<f64>> = (0..all).map(column).collect();
+            let slices = columns.iter().zip(&same);
+            let slices = slices.map(|(column, same)| &column[..if *same { 1 } else { COUNT }]);
+            let slices: Vec<&[f64]> = slices.collect();
+            for isa in Isa::available() {
+                let mut out = vec![0.0; COUNT];
+                (term.f64_block)(isa, &slices, &mut out);
+                for (k, out) in out.iter().enumerate() {
+                    let args: Vec<f64> = (0..all).map(|i| at(i, k)).collect();
+                    let expected = (term.f64)(&args);
+                    let name = format!("{} {} at {args:?}, {same:?}", term.name, isa.name());
+                    assert_eq!(out.to_bits(), expected.to_bits(), "{name}");
+                }
+            }
+        }
+    }
+}
+
 /// What does not fill a register is computed alone, and must not differ in a bit.
 #[test]
 fn any_length() {

@@ -12,6 +12,10 @@ use std::sync::Arc;
 /// Programs whose steps are kept.
 const KEPT: usize = 8;
 
+/// Slots, and arguments of a function, for which no memory is asked for.
+const USUAL_SLOTS: usize = 48;
+const USUAL_ARGS: usize = 8;
+
 /// Bytes of a cache line, and of the longest vector.
 const LINE: usize = 64;
 
@@ -184,10 +188,17 @@ impl<'a, 'o, R: Machine> Block<'a, 'o, R> {
         } = ready;
         // Where a slot's values are: with the caller where the chunk is whole, so that nothing
         // is copied, else in memory of our own, where a tile may reach beyond the last point.
-        let mut slots: Vec<*mut R> = Vec::with_capacity(steps.slots.len());
+        let (mut usual, mut many) = ([std::ptr::null_mut(); USUAL_SLOTS], Vec::new());
+        let slots: &mut [*mut R] = match usual.get_mut(..steps.slots.len()) {
+            Some(usual) => usual,
+            None => {
+                many.resize(steps.slots.len(), std::ptr::null_mut());
+                &mut many
+            }
+        };
         let own = memory.chunks().chunks_exact_mut(R::CHUNK);
-        for (slot, own) in steps.slots.iter().zip(own) {
-            slots.push(match *slot {
+        for ((place, slot), own) in slots.iter_mut().zip(&steps.slots).zip(own) {
+            *place = match *slot {
                 Slot::Temporary | Slot::Same(_) => own.as_mut_ptr(),
                 Slot::Input(input) => match self.columns[input] {
                     // Only read from: an input's slot is never one that is stored to.
@@ -202,8 +213,9 @@ impl<'a, 'o, R: Machine> Block<'a, 'o, R> {
                     Some(out) if whole && out.len() >= start + count => out[start..].as_mut_ptr(),
                     _ => own.as_mut_ptr(),
                 },
-            });
+            };
         }
+        let slots = &*slots;
         let at = |slot: usize| slots[slot];
         for step in &steps.steps {
             // SAFETY: every slot points to a chunk of values: inputs, results and memory of our
@@ -211,7 +223,7 @@ impl<'a, 'o, R: Machine> Block<'a, 'o, R> {
             // reads and writes different slots, as the planner takes care.
             unsafe {
                 match step {
-                    Step::Run(code) => R::run(self.isa, code, &slots, same, count),
+                    Step::Run(code) => R::run(self.isa, code, slots, same, count),
                     Step::Unary(function, from, to) => {
                         let (from, to) = (slice(at(*from), count), slice_mut(at(*to), count));
                         for (to, from) in to.iter_mut().zip(from) {
@@ -227,9 +239,24 @@ impl<'a, 'o, R: Machine> Block<'a, 'o, R> {
                         }
                     }
                     Step::Term(term, args, to) => {
-                        let args: Vec<&[R]> =
-                            args.iter().map(|slot| slice(at(*slot), count)).collect();
-                        R::term_block(term.0, self.isa, &args, slice_mut(at(*to), count));
+                        // Of what is the same everywhere one value may do.
+                        let one = steps.of_material(term.0, args);
+                        let arg = |(slot, param): (&usize, &brdf::Param)| {
+                            let one = one && param.is_of_material();
+                            slice(at(*slot), if one { 1 } else { count })
+                        };
+                        let to = slice_mut(at(*to), count);
+                        let args = args.iter().zip(term.0.params).map(arg);
+                        let mut usual: [&[R]; USUAL_ARGS] = [&[]; USUAL_ARGS];
+                        match usual.get_mut(..args.len()) {
+                            Some(usual) => {
+                                usual.iter_mut().zip(args).for_each(|(to, arg)| *to = arg);
+                                R::term_block(term.0, self.isa, usual, to);
+                            }
+                            None => {
+                                R::term_block(term.0, self.isa, &args.collect::<Vec<_>>(), to);
+                            }
+                        }
                     }
                 }
             }

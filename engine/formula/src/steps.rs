@@ -211,6 +211,16 @@ impl Steps {
     }
 }
 
+impl Steps {
+    /// Whether those of a function's arguments that are of the material are the same everywhere.
+    pub fn of_material(&self, term: &brdf::Term, args: &[usize]) -> bool {
+        let mut args = args.iter().zip(term.params);
+        args.all(|(slot, param)| {
+            !param.is_of_material() || matches!(self.slots[*slot], Slot::Same(_))
+        })
+    }
+}
+
 impl Planner<'_> {
     fn count_reads(&mut self, roots: &[Id]) {
         for (id, op) in self.ops.iter().enumerate() {
