@@ -136,6 +136,40 @@ fn a_picture_appears_and_the_learner_moves_on() {
     assert_eq!(terminal.wait(), 0);
 }
 
+/// The row of the screen below the first that contains `text`.
+fn below<'a>(screen: &'a str, text: &str) -> Option<&'a str> {
+    let mut lines = screen.lines().skip_while(|line| !line.contains(text));
+    lines.next().and(lines.next())
+}
+
+#[test]
+fn a_map_is_drawn_with_its_axes() {
+    for (no_colours, signs, key) in [
+        ("", "▀▀▀▀▀▀▀▀", "orange: above 1"),
+        ("1", "++++====", "+ above 1"),
+    ] {
+        let home = tempfile::tempdir().expect("a folder");
+        let folder = home.path().join("p").display().to_string();
+        let args = ["learn", "smith-g2", "--seed", "7", "--progress", &folder];
+        let more = [("LOBE_PICTURES", "halfblocks"), ("NO_COLOR", no_colours)];
+        let mut terminal = Terminal::start_with(home.path(), (200, 120), &args, &more);
+        terminal.wait_for("Enter on");
+        let heading = |screen: &str| screen.lines().nth(1).map(str::to_owned);
+        while !terminal.text().contains("Where it hides") {
+            let here = heading(&terminal.text());
+            terminal.send("G\r");
+            terminal.wait_until("another page", |screen| heading(screen) != here);
+        }
+        terminal.wait_until("the map", |screen| {
+            below(screen, "White furnace, divided twice").is_some_and(|row| row.contains(signs))
+        });
+        terminal.wait_for("0.01 → 1: N·V · 0.05 ↑ 1: roughness");
+        terminal.wait_for(key);
+        terminal.send("\u{3}");
+        assert_eq!(terminal.wait(), 0);
+    }
+}
+
 #[test]
 fn what_cannot_be_saved_is_kept_and_said_and_saved_later() {
     let home = tempfile::tempdir().expect("a folder");

@@ -1,22 +1,30 @@
 //! A lesson's fingerprint as `renders` wants it, and its profile in numbers.
 
-use renders::{Backend, Eye, Fingerprint, Light, Options, RADIUS, Scene, Visibility};
+use renders::{Eye, Fingerprint, Light, RADIUS, Scene, Visibility};
+use tutor::Lesson;
 use tutor::exercise::look::{Sight, Spot};
 use tutor::lesson::{Given, SceneLight};
 use tutor::prose::{Block, Inline, TableView, plain};
-use tutor::{Finding, Lesson, Place};
 
 use crate::text;
 
-/// What a picture shows: a fingerprint of the lesson, or the ball of a learner's own shader.
+/// What a picture shows.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Subject {
     /// Id of the lesson.
     pub lesson: String,
-    /// Id of the fingerprint, or of the exercise.
+    /// Id within the lesson: of the fingerprint, of the exercise, or of the map.
     pub id: String,
-    /// The learner's text.
-    pub own: Option<String>,
+    pub kind: Kind,
+}
+
+/// What is drawn.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Kind {
+    Fingerprint,
+    /// The ball of a learner's own shader, whose text this is.
+    Own(String),
+    Map,
 }
 
 /// The fingerprint of that id, ready to draw.
@@ -57,108 +65,6 @@ pub fn sight(lesson: &Lesson, id: &str, x: f64, y: f64) -> Sight {
         here: seen.and_then(|it| it.here).map(spot),
         brightest: seen.and_then(|it| it.brightest).map(spot),
         darkest: seen.and_then(|it| it.darkest).map(spot),
-    }
-}
-
-/// A figure of a picture by the name that lessons and `lobe render --json` call it.
-pub fn figure(seen: &Visibility, name: &str) -> Option<f64> {
-    Some(match name {
-        "lit_above_one" => seen.lit_above_one,
-        "disc_above_one" => seen.disc_above_one,
-        "ratio_at_highlight" => seen.ratio_at_highlight,
-        "rim_over_highlight_wrong" => seen.rim_over_highlight.0,
-        "rim_over_highlight_right" => seen.rim_over_highlight.1,
-        "terminator_step" => seen.terminator_step,
-        "growth_per_doubling" => seen.growth_per_doubling,
-        "brighter_by_8" => seen.changed_8.0,
-        "dimmer_by_8" => seen.changed_8.1,
-        _ => return None,
-    })
-}
-
-/// The figures that a lesson quotes of its pictures and that are not so.
-pub fn check_seen(lesson: &Lesson) -> Vec<Finding> {
-    let entries = lesson.fingerprints.iter();
-    entries
-        .filter(|entry| !entry.seen.is_empty())
-        .flat_map(|entry| check_figures(lesson, entry))
-        .collect()
-}
-
-fn check_figures(lesson: &Lesson, entry: &tutor::lesson::Fingerprint) -> Vec<Finding> {
-    let Some(fingerprint) = fingerprint(lesson, &entry.id) else {
-        return Vec::new();
-    };
-    let finding = |place: Place, code, message: String| {
-        Finding::new(&lesson.file, &lesson.source, place, code, message)
-    };
-    let options = Options {
-        size: 384,
-        backend: Backend::Cpu,
-        ..Options::default()
-    };
-    let seen = match renders::visibility(&fingerprint, &options) {
-        Ok(seen) => seen,
-        Err(error) => return vec![finding(entry.id.place, "not-a-scene", format!("{error}."))],
-    };
-    let mut found = Vec::new();
-    for quoted in &entry.seen {
-        let name = quoted.name.text.as_str();
-        let shown = &lesson.source[quoted.place.start..quoted.place.end];
-        let Some(drawn) = figure(&seen, name) else {
-            // The name was found to be unknown already.
-            continue;
-        };
-        let closed = closed_form(&fingerprint, name);
-        // What is counted in pixels is known to a fifth of a percent.
-        let agrees = match closed {
-            Some(value) => formula::agrees_with_printed(value, shown),
-            None => [1.0, 0.998, 1.002]
-                .iter()
-                .any(|share| formula::agrees_with_printed(share * drawn, shown)),
-        };
-        if !agrees {
-            let digits = formula::significant_digits(shown).unwrap_or(3);
-            let value = closed.unwrap_or(drawn);
-            let value = formula::format_number(value, formula::Digits::Significant(digits));
-            let who = if closed.is_some() {
-                "the closed form gives"
-            } else {
-                "the picture shows"
-            };
-            let message = format!("`{name}` is quoted as {shown}; {who} {value}.");
-            found.push(finding(quoted.place, "number-differs", message).expecting(value));
-        }
-        if let Some(value) = closed
-            && (drawn - value).abs() > 5e-3 * value
-        {
-            let message =
-                format!("`{name}` is {value} in closed form, but the picture shows {drawn}.");
-            found.push(finding(quoted.place, "number-differs", message));
-        }
-    }
-    found
-}
-
-/// A figure that is known without a picture: dividing twice under one distant light brightens
-/// min(1, 1/(4 cos²(β/2))) of the lit lens, and a quarter of the disc as long as it is no more.
-fn closed_form(fingerprint: &Fingerprint, name: &str) -> Option<f64> {
-    let (library, scene) = (fingerprint.library, &fingerprint.scene);
-    let twice = formula::parse("1 / (4 * n_dot_l * n_dot_v)").ok()?;
-    let ratio = library.ratio(fingerprint.right, fingerprint.wrong)?;
-    let [light] = scene.lights.as_slice() else {
-        return None;
-    };
-    let simple = scene.eye == Eye::Orthographic && light.distance.is_none();
-    if !simple || library.canonical(&ratio) != library.canonical(&twice) {
-        return None;
-    }
-    let highlight = 1.0 / (4.0 * (light.deg / 2.0).to_radians().cos().powi(2));
-    match name {
-        "ratio_at_highlight" => Some(highlight),
-        "lit_above_one" => Some(highlight.min(1.0)),
-        "disc_above_one" => Some(highlight.min(1.0) * (1.0 + light.deg.to_radians().cos()) / 2.0),
-        _ => None,
     }
 }
 
@@ -289,7 +195,8 @@ pub fn table_of(points: &[renders::ProfilePoint], second: &str) -> Option<TableV
 mod tests {
     use super::*;
     use crate::lessons::Shelf;
-    use renders::{Precision, Raw};
+    use crate::seen::figure;
+    use renders::{Backend, Options, Precision, Raw};
     use std::sync::atomic::AtomicBool;
     use tutor::lesson::SEEN;
 

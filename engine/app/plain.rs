@@ -15,6 +15,7 @@ use tutor::view::{Input, Saving, Stage, View};
 
 use crate::exit::{Done, Failure};
 use crate::fingerprints::{places_table, profile_table};
+use crate::maps::map_table;
 use crate::output;
 use crate::shaders;
 use crate::sitting::{Request, Sitting};
@@ -556,6 +557,10 @@ impl text::Describe for Profiles<'_> {
             None => profile_table(self.lesson, id),
             Some(source) => shaders::profile(self.lesson, id, source),
         }
+    }
+
+    fn map(&self, lesson: &str, id: &str) -> Option<TableView> {
+        (lesson == self.lesson.id.text).then(|| map_table(self.lesson, id))?
     }
 }
 

@@ -244,22 +244,38 @@ fn padded(cells: &[String], columns: &[usize]) -> String {
 /// A plot as a table: its curves at a few places.
 pub fn plot_table(plot: &PlotView) -> TableView {
     const PLACES: usize = 7;
-    let mut header = vec![plot.x_label.clone()];
+    // A long label would push the columns off the page.
+    let (head, title) = match plot.x_label.width() > 36 {
+        true => (
+            "x".to_owned(),
+            format!("Plot: {} (x: {})", plot.title, plot.x_label),
+        ),
+        false => (plot.x_label.clone(), format!("Plot: {}", plot.title)),
+    };
+    let mut header = vec![head];
     header.extend(plot.series.iter().map(|(label, _)| label.clone()));
     let (from, to) = plot.x_range;
-    let rows = (0..PLACES)
-        .map(|place| {
-            let share = place as f64 / (PLACES - 1) as f64;
-            let x = if plot.x_log && from > 0.0 {
-                from * (to / from).powf(share)
-            } else {
-                from + (to - from) * share
-            };
+    let even = (0..PLACES).map(|place| {
+        let share = place as f64 / (PLACES - 1) as f64;
+        if plot.x_log && from > 0.0 {
+            from * (to / from).powf(share)
+        } else {
+            from + (to - from) * share
+        }
+    });
+    // What was measured in few places is shown where it was.
+    let places: Vec<f64> = match plot.series.first() {
+        Some((_, points)) if points.len() <= PLACES => points.iter().map(|(x, _)| *x).collect(),
+        _ => even.collect(),
+    };
+    let rows = places
+        .into_iter()
+        .map(|x| {
             let mut row = vec![short(x)];
             row.extend(
                 plot.series
                     .iter()
-                    .map(|(_, points)| at(points, x).map_or("–".into(), short)),
+                    .map(|(_, points)| at(points, x).map_or("–".into(), |y| short(settled(y)))),
             );
             row
         })
@@ -275,11 +291,16 @@ pub fn plot_table(plot: &PlotView) -> TableView {
         vec![Inline::Text(marks.join("; ") + ".")]
     };
     TableView {
-        title: format!("Plot: {}", plot.title),
+        title,
         header,
         rows,
         note,
     }
+}
+
+/// What rounding alone keeps from being 0, as at the cosine of a right angle.
+fn settled(value: f64) -> f64 {
+    if value.abs() < 1e-12 { 0.0 } else { value }
 }
 
 /// The curve's value at `x`, between its nearest points; `None` outside of them.
@@ -316,6 +337,8 @@ pub fn short(value: f64) -> String {
 pub trait Describe {
     /// The profile of a fingerprint, or of a learner's own shader, as a table.
     fn picture(&self, lesson: &str, id: &str, own: Option<&str>) -> Option<TableView>;
+    /// Some values of a map, as a table.
+    fn map(&self, lesson: &str, id: &str) -> Option<TableView>;
 }
 
 /// A block as plain lines, none wider than `width` unless it is code.
@@ -341,6 +364,15 @@ pub fn plain(block: &Block, width: usize, describe: &dyn Describe) -> Vec<String
         Block::Quote(inlines) => indented(&pieces(inlines), width, "> ", "> "),
         Block::Table(table) => plain_table(table, width),
         Block::Plot(plot) => plain_table(&plot_table(plot), width),
+        Block::Map(frame) => {
+            let mut lines = wrap_plain(&format!("Map: {}", frame.title), width, "", "");
+            lines.extend(paragraph(&frame.caption));
+            if let Some(table) = describe.map(&frame.lesson, &frame.id) {
+                lines.push(String::new());
+                lines.extend(plain_table(&table, width));
+            }
+            lines
+        }
         Block::Picture {
             lesson,
             id,

@@ -52,7 +52,7 @@ pub use dots::{Dot, Shape};
 pub use error::Error;
 pub use gpu::GpuFormulas;
 pub use look::{Look, Spot, look};
-pub use map::{MapSpec, Scale, map_png};
+pub use map::{MapSpec, Scale, map_pixels, map_png};
 pub use own::{Own, profile_own, render_own};
 pub use preview::{Frame, Preview};
 pub use profile::{ProfilePoint, point_at, profile};

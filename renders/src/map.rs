@@ -128,11 +128,8 @@ fn sequential(share: f64) -> Rgb {
     mix(STOPS[low], STOPS[low + 1], at - low as f64)
 }
 
-/// A map as a PNG file of `width` by `height` pixels.
-///
-/// # Errors
-/// Where the picture is too small for its labels, or the values do not fill whole rows.
-pub fn map_png(spec: &MapSpec, width: u32, height: u32) -> Result<Vec<u8>, Error> {
+/// How many rows the values fill.
+fn rows(spec: &MapSpec) -> Result<usize, Error> {
     let rows = spec.values.len() / spec.columns.max(1);
     if rows == 0 || rows * spec.columns != spec.values.len() {
         return Err(Error::Plot(format!(
@@ -141,6 +138,37 @@ pub fn map_png(spec: &MapSpec, width: u32, height: u32) -> Result<Vec<u8>, Error
             spec.columns
         )));
     }
+    Ok(rows)
+}
+
+/// The colours of a map alone, without a word: red, green, blue, alpha of every pixel, from the
+/// top. Where there is no value it is transparent.
+///
+/// # Errors
+/// Where the values do not fill whole rows.
+pub fn map_pixels(spec: &MapSpec, width: u32, height: u32) -> Result<Vec<u8>, Error> {
+    let rows = rows(spec)?;
+    let ratio = DivergingTable::new();
+    let share = |at: u32, of: u32| (f64::from(at) + 0.5) / f64::from(of);
+    let mut rgba = Vec::with_capacity(4 * width as usize * height as usize);
+    for row in 0..height {
+        for column in 0..width {
+            let value = sample(spec, rows, share(column, width), 1.0 - share(row, height));
+            rgba.extend(value.map_or([0; 4], |value| {
+                let [red, green, blue] = spec.scale.colour(spec.scale.share(value), &ratio);
+                [red, green, blue, 255]
+            }));
+        }
+    }
+    Ok(rgba)
+}
+
+/// A map as a PNG file of `width` by `height` pixels.
+///
+/// # Errors
+/// Where the picture is too small for its labels, or the values do not fill whole rows.
+pub fn map_png(spec: &MapSpec, width: u32, height: u32) -> Result<Vec<u8>, Error> {
+    let rows = rows(spec)?;
     let axes = [spec.x, spec.y].map(|range| Axis::fit([].into_iter(), false, Some(range), false));
     let [Some(x_axis), Some(y_axis)] = axes else {
         return Err(Error::Plot("an axis of the map has no range".to_owned()));

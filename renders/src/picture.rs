@@ -308,8 +308,8 @@ fn figures(canvas: &mut Canvas, left: f32, top: f32, width: f32, em: f32, visibi
             "lit area that turns brighter",
             percent(visibility.lit_above_one),
         ),
-        ("rim (median) / highlight, correct", short(rim_right)),
-        ("rim (median) / highlight, buggy", short(rim_wrong)),
+        ("rim (outer 0.4 %) / highlight, correct", short(rim_right)),
+        ("rim (outer 0.4 %) / highlight, buggy", short(rim_wrong)),
         (
             "terminator step / highlight",
             short(visibility.terminator_step),

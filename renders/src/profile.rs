@@ -193,7 +193,7 @@ impl Growth {
 /// From some places around the rim.
 ///
 /// With q = √(1 − r²) the area of the disc is r dr dφ = q dq dφ, so that what goes as K(φ)/q² adds
-/// K/π ∫ dφ ln(1/q₀) to the mean over the disc. A pixel reaches to q₀ ∝ 1/√size: twice the size
+/// K/π ∫ dφ ln(1/q₀) to the mean over the disc. Samples reach to q₀ ∝ 1/√size: twice the size
 /// adds the mean of K over φ, times ln 2.
 ///
 /// None of them is where a distant light's terminator meets the rim: any value that grows with

@@ -11,9 +11,9 @@ use tutor::{Finding, Lesson, Severity};
 
 use crate::cli::{Check, Folders, Format};
 use crate::exit::{Done, Failure};
-use crate::fingerprints::check_seen;
 use crate::lessons::{File, Shelf};
 use crate::output;
+use crate::seen::check_seen;
 
 pub fn run(folders: &Folders, args: &Check) -> Result<Done, Failure> {
     let shelf = if args.paths.is_empty() {

@@ -7,23 +7,26 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-use renders::{Fingerprint, MapSpec, Options, PlotSpec};
+use renders::{Fingerprint, Options, PlotSpec};
 use serde::{Deserialize, Serialize};
 use tutor::Lesson;
-use tutor::map::Scale;
 use tutor::prose::Block;
 
 use crate::cli::{Backend, Folders, Precision, Render, Values};
 use crate::exit::{Done, Failure};
-use crate::fingerprints::{figure, fingerprint};
+use crate::fingerprints::fingerprint;
+use crate::maps::map_spec;
 use crate::output;
 use crate::picture_cache::Entry;
+use crate::seen::figure;
 
 /// Panels up to this size are kept, to be drawn but once; in pixels.
 const KEPT: u32 = 2048;
 /// Width and height of a plot's file, and of a map's.
 const PLOT: (u32, u32) = (960, 600);
 const MAP: (u32, u32) = (800, 600);
+/// Values across a map, and upwards.
+const CELLS: usize = 48;
 
 /// How a picture came about.
 #[derive(Clone, Serialize, Deserialize)]
@@ -361,26 +364,11 @@ fn draw_map(lesson: &Lesson, id: &str, args: &Render, out: &Path) -> Result<Repo
     let path = out.join(format!("{}.png", stem(&lesson.id, id)));
     let description = format!("map {MAP:?}\n{}\n{id}", lesson.hash);
     cached(&description, &path, args, || {
-        let Some(view) = lesson.map(id) else {
+        let Some(spec) = map_spec(lesson, id, CELLS) else {
             return Err(Failure::unusable(format!(
                 "{}/{id}: no such map",
                 lesson.id
             )));
-        };
-        let spec = MapSpec {
-            title: view.title,
-            x_label: view.x_label,
-            y_label: view.y_label,
-            value_label: view.value_label,
-            x: view.x,
-            y: view.y,
-            columns: view.columns,
-            values: view.values,
-            scale: match view.scale {
-                Scale::Linear(from, to) => renders::Scale::Linear(from, to),
-                Scale::Log(from, to) => renders::Scale::Log(from, to),
-                Scale::Ratio => renders::Scale::Ratio,
-            },
         };
         let bytes = renders::map_png(&spec, MAP.0, MAP.1);
         let bytes = bytes.map_err(|error| failed(&lesson.id, id, &error))?;

@@ -16,7 +16,11 @@ use ratatui_image::sliced::SlicedProtocol;
 use tutor::Lesson;
 
 use super::probe;
-use crate::fingerprints::{Subject, fingerprint};
+use crate::fingerprints::{Kind, Subject, fingerprint};
+use crate::maps::map_spec;
+
+/// Values across a map on the screen, and upwards: an integral can be behind each.
+const CELLS: usize = 24;
 
 /// A spinner turns this often.
 const TURN: Duration = Duration::from_millis(100);
@@ -74,6 +78,12 @@ impl Pictures {
 /// Rows that three square panels side by side take in `width` columns.
 pub fn rows_for(width: u16) -> u16 {
     (width / 6).max(3)
+}
+
+/// Columns and rows of a map where there are so many columns.
+pub fn map_size(width: u16) -> (u16, u16) {
+    let width = width.min(64);
+    (width, (width / 4).max(6))
 }
 
 impl Pictures {
@@ -185,16 +195,63 @@ fn draw(
         _ => u32::from(picker.font_size().width),
     };
     let size = (u32::from(*width) * cell / 3).clamp(64, 1024);
-    let (columns, rows, rgba) = match &subject.own {
-        Some(source) => crate::shaders::picture(lesson, &subject.id, source, size)?,
-        None => fingerprint_of(lesson, &subject.id, size, cancel)?,
+    let area = Size::new(*width, *height);
+    let pixels = match &subject.kind {
+        Kind::Own(source) => crate::shaders::picture(lesson, &subject.id, source, size)?,
+        Kind::Fingerprint => fingerprint_of(lesson, &subject.id, size, cancel)?,
+        Kind::Map => {
+            let spec = map_spec(lesson, &subject.id, CELLS).ok_or("the lesson has no such map")?;
+            if !colours && picker.protocol_type() == ProtocolType::Halfblocks {
+                let image = map_of(&spec, u32::from(*width), u32::from(*height))?;
+                return Ok(Drawn::Shades(map_shades(&image, spec.scale)));
+            }
+            let (across, down) = match picker.protocol_type() {
+                ProtocolType::Halfblocks => (2, 4),
+                _ => {
+                    let cell = picker.font_size();
+                    (u32::from(cell.width), u32::from(cell.height))
+                }
+            };
+            let (across, down) = (across * u32::from(*width), down * u32::from(*height));
+            (across, down, map_of(&spec, across, down)?.into_raw())
+        }
     };
-    paint(
-        picker,
-        colours,
-        (columns, rows, rgba),
-        Size::new(*width, *height),
-    )
+    paint(picker, colours, pixels, area)
+}
+
+/// The colours of a map.
+fn map_of(spec: &renders::MapSpec, width: u32, height: u32) -> Result<RgbaImage, String> {
+    let rgba = renders::map_pixels(spec, width, height).map_err(|error| error.to_string())?;
+    RgbaImage::from_raw(width, height, rgba).ok_or_else(|| "the map has the wrong size".to_owned())
+}
+
+/// A map in letters, one a pixel: brightness, or below and above 1.
+fn map_shades(image: &RgbaImage, scale: renders::Scale) -> Vec<String> {
+    let letter = |x: u32, y: u32| {
+        let [red, green, blue, alpha] = image.get_pixel(x, y).0.map(i32::from);
+        match (alpha, scale) {
+            (0, _) => ' ',
+            (_, renders::Scale::Ratio) => sign(red - blue),
+            _ => shade((3 * red + 6 * green + blue) / 10),
+        }
+    };
+    let row = |y| (0..image.width()).map(|x| letter(x, y)).collect();
+    (0..image.height()).map(row).collect()
+}
+
+/// The letter of a brightness of 0 to 255.
+fn shade(brightness: i32) -> char {
+    const SHADES: [char; 5] = [' ', '░', '▒', '▓', '█'];
+    SHADES[(brightness / 52).clamp(0, 4) as usize]
+}
+
+/// The letter of a ratio by its colour, orange or blue.
+fn sign(warmth: i32) -> char {
+    match warmth {
+        30.. => '+',
+        ..=-30 => '-',
+        _ => '=',
+    }
 }
 
 /// Pixels (width, height, red green blue alpha) as the terminal shows them in that many cells.
@@ -264,18 +321,15 @@ fn fingerprint_of(
 
 /// A picture in letters: brightness in two panels, too dark or too bright in the third.
 fn shades(image: &RgbaImage, width: u16, height: u16) -> Vec<String> {
-    const SHADES: [char; 5] = [' ', '░', '▒', '▓', '█'];
     let (columns, rows) = (u32::from(width), u32::from(height));
     let small = image::imageops::thumbnail(image, columns, rows);
     let letter = |x: u32, y: u32| {
         let [red, green, blue, _] = small.get_pixel(x, y).0.map(i32::from);
         let brightness = (3 * red + 6 * green + blue) / 10;
-        match (x >= columns * 2 / 3, red - blue) {
-            (true, _) if brightness < 50 => ' ',
-            (true, 30..) => '+',
-            (true, ..=-30) => '-',
-            (true, _) => '=',
-            (false, _) => SHADES[(brightness / 52).clamp(0, 4) as usize],
+        match x >= columns * 2 / 3 {
+            true if brightness < 50 => ' ',
+            true => sign(red - blue),
+            false => shade(brightness),
         }
     };
     (0..rows)

@@ -18,7 +18,7 @@ use crate::rubric::Rubric;
 pub use exercise::{
     ChoiceOption, Exercise, ExerciseStep, NamedMistake, SuspectLine, Task, Tolerance, Variable,
 };
-pub use fingerprint::{Fingerprint, SEEN, STAGING, SceneLight};
+pub use fingerprint::{Fingerprint, MEAN_SIZES, Means, Printed, SEEN, STAGING, SceneLight};
 pub use look::{LookTask, Shows};
 pub use shader::ShaderTask;
 
@@ -195,6 +195,8 @@ pub struct Figures {
     pub table: Vec<Text>,
     /// Plots.
     pub plot: Vec<Text>,
+    /// Maps.
+    pub map: Vec<Text>,
     /// Fingerprint pictures.
     pub picture: Vec<Text>,
 }
@@ -340,6 +342,8 @@ pub struct Map {
     pub value_label: Text,
     /// What the colours mean.
     pub scale: crate::map::Scale,
+    /// What is to be seen (prose).
+    pub says: Option<Text>,
     /// Numbers that are the same all over the map.
     pub with: Vec<Given>,
     /// What is drawn.
@@ -380,9 +384,23 @@ pub struct Series {
     /// Its name in the legend.
     pub label: Text,
     /// What is drawn.
-    pub is: Formula,
+    pub is: Curve,
     /// Numbers of this curve alone, such as its roughness.
     pub with: Vec<Given>,
+}
+
+/// What a curve is drawn from.
+#[derive(Clone, Debug)]
+pub enum Curve {
+    /// A formula of the horizontal axis's variable.
+    Formula(Formula),
+    /// The means of a fingerprint's panel, over the picture's size.
+    Means {
+        /// The fingerprint.
+        picture: Text,
+        /// Of its wrong panel, or of the right one.
+        wrong: bool,
+    },
 }
 
 /// A point with a name.

@@ -3,10 +3,7 @@
 use formula::Values;
 
 use crate::lesson::{Lesson, Map, values};
-use crate::prose::plain;
-
-/// Values across a map, and upwards.
-const COLUMNS: usize = 48;
+use crate::prose::{Inline, plain};
 
 /// What the colours of a map mean.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,9 +16,11 @@ pub enum Scale {
     Ratio,
 }
 
-/// A map with its values.
+/// What stands around a map.
 #[derive(Clone, Debug, PartialEq)]
-pub struct MapView {
+pub struct MapFrame {
+    /// The lesson's id.
+    pub lesson: String,
     /// Name of the map in its lesson.
     pub id: String,
     /// Heading.
@@ -36,21 +35,21 @@ pub struct MapView {
     pub x: (f64, f64),
     /// Ends of the vertical axis, bottom and top.
     pub y: (f64, f64),
-    /// Number of columns.
-    pub columns: usize,
-    /// Values at the middles of the cells, by rows from the bottom; NaN where there is none.
-    pub values: Vec<f64>,
     /// What the colours mean.
     pub scale: Scale,
+    /// What is to be seen.
+    pub caption: Vec<Inline>,
 }
 
 impl Lesson {
-    /// The map of that id.
-    pub fn map(&self, id: &str) -> Option<MapView> {
+    /// The map of that id, without its values.
+    pub fn map_frame(&self, id: &str) -> Option<MapFrame> {
         let map = self.maps.iter().find(|map| map.id.text == id)?;
         let known = values(&map.with);
         let words = |text: &str| plain(&self.inline(text, &known));
-        Some(MapView {
+        let says = map.says.as_ref();
+        Some(MapFrame {
+            lesson: self.id.text.clone(),
             id: map.id.text.clone(),
             title: words(&map.title),
             x_label: words(&map.x.label),
@@ -58,15 +57,38 @@ impl Lesson {
             value_label: words(&map.value_label),
             x: (map.x.from, map.x.to),
             y: (map.y.from, map.y.to),
-            columns: COLUMNS,
-            values: self.cells(map, &known, COLUMNS),
             scale: map.scale,
+            caption: says.map_or_else(Vec::new, |says| self.inline(says, &known)),
         })
+    }
+
+    /// The values of the map of that id, at all of `xs` for each of `ys`; NaN where there is none.
+    /// Empty where the formula cannot be evaluated at all.
+    pub fn map_values(&self, id: &str, xs: &[f64], ys: &[f64]) -> Vec<f64> {
+        let map = self.maps.iter().find(|map| map.id.text == id);
+        map.map_or_else(Vec::new, |map| {
+            self.values_at(map, &values(&map.with), xs, ys)
+        })
+    }
+
+    /// [`Lesson::map_values`] at the middles of `count` by `count` cells, by rows from the bottom.
+    pub fn map_cells(&self, id: &str, count: usize) -> Vec<f64> {
+        let map = self.maps.iter().find(|map| map.id.text == id);
+        map.map_or_else(Vec::new, |map| self.cells(map, &values(&map.with), count))
     }
 
     /// The values at the middles of `count` by `count` cells; empty where the formula cannot be
     /// evaluated there.
     pub(crate) fn cells(&self, map: &Map, known: &Values, count: usize) -> Vec<f64> {
+        let middles = |from: f64, to: f64| -> Vec<f64> {
+            let middle = |cell| from + (to - from) * (cell as f64 + 0.5) / count as f64;
+            (0..count).map(middle).collect()
+        };
+        let (xs, ys) = (middles(map.x.from, map.x.to), middles(map.y.from, map.y.to));
+        self.values_at(map, known, &xs, &ys)
+    }
+
+    fn values_at(&self, map: &Map, known: &Values, xs: &[f64], ys: &[f64]) -> Vec<f64> {
         let axes = [&map.x.name.text, &map.y.name.text];
         let known = known.iter().filter(|(name, _)| !axes.contains(name));
         let (mut names, mut inputs): (Vec<&str>, Vec<f64>) =
@@ -76,19 +98,15 @@ impl Lesson {
         let Ok(program) = self.library.compile(&map.is.expr, &names) else {
             return Vec::new();
         };
-        let middle = |(from, to): (f64, f64), cell: usize| {
-            from + (to - from) * (cell as f64 + 0.5) / count as f64
-        };
         let first = inputs.len() - 2;
-        let mut cells = Vec::with_capacity(count * count);
-        for row in 0..count {
-            for column in 0..count {
-                inputs[first] = middle((map.x.from, map.x.to), column);
-                inputs[first + 1] = middle((map.y.from, map.y.to), row);
+        let mut found = Vec::with_capacity(xs.len() * ys.len());
+        for &y in ys {
+            for &x in xs {
+                (inputs[first], inputs[first + 1]) = (x, y);
                 let value = program.eval(&inputs);
-                cells.push(if value.is_finite() { value } else { f64::NAN });
+                found.push(if value.is_finite() { value } else { f64::NAN });
             }
         }
-        cells
+        found
     }
 }

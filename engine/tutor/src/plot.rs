@@ -2,7 +2,7 @@
 
 use formula::{Expr, Program, Values};
 
-use crate::lesson::{AxisX, Figures, Given, Lesson, Plot, values};
+use crate::lesson::{AxisX, Curve, Figures, Given, Lesson, Plot, Series, values};
 use crate::prose::{Block, PlotView, plain};
 
 /// Points on a curve.
@@ -17,7 +17,7 @@ impl Lesson {
             .iter()
             .map(|series| {
                 let label = self.label(&series.label, plot, &series.with);
-                (label, self.curve(plot, &series.is.expr, &series.with))
+                (label, self.curve(plot, series))
             })
             .collect();
         let marks: Vec<(String, f64, f64)> = plot
@@ -66,7 +66,21 @@ impl Lesson {
         plain(&self.inline(text, &known_at(plot, own)))
     }
 
-    fn curve(&self, plot: &Plot, expr: &Expr, own: &[Given]) -> Vec<(f64, f64)> {
+    fn curve(&self, plot: &Plot, series: &Series) -> Vec<(f64, f64)> {
+        let mut points = match &series.is {
+            Curve::Formula(formula) => self.computed(plot, &formula.expr, &series.with),
+            Curve::Means { picture, wrong } => {
+                let mut prints = self.fingerprints.iter();
+                let print = prints.find(|print| print.id.text == picture.text);
+                let means = print.and_then(|print| print.means.as_ref());
+                means.map_or_else(Vec::new, |means| means.points(*wrong))
+            }
+        };
+        points.retain(|(_, y)| y.is_finite() && (!plot.y.log || *y > 0.0));
+        points
+    }
+
+    fn computed(&self, plot: &Plot, expr: &Expr, own: &[Given]) -> Vec<(f64, f64)> {
         let Ok((program, mut inputs)) = compile_curve(self, plot, expr, own) else {
             return Vec::new();
         };
@@ -76,10 +90,7 @@ impl Lesson {
             if let Some(last) = inputs.last_mut() {
                 *last = x;
             }
-            let y = program.eval(&inputs);
-            if y.is_finite() && (!plot.y.log || y > 0.0) {
-                points.push((x, y));
-            }
+            points.push((x, program.eval(&inputs)));
         }
         points
     }
@@ -102,12 +113,14 @@ impl Lesson {
         })
     }
 
-    /// Everything shown below a text: tables, then plots, then pictures.
+    /// Everything shown below a text: tables, then plots, then maps, then pictures.
     pub fn figures(&self, figures: &Figures) -> Vec<Block> {
         let tables = figures.table.iter().filter_map(|id| self.table(id));
         let plots = figures.plot.iter().filter_map(|id| self.plot(id));
         let pictures = figures.picture.iter().filter_map(|id| self.picture(id));
-        tables.chain(plots).chain(pictures).collect()
+        let maps = figures.map.iter().filter_map(|id| self.map_frame(id));
+        let maps = maps.map(|frame| Block::Map(Box::new(frame)));
+        tables.chain(plots).chain(maps).chain(pictures).collect()
     }
 }
 

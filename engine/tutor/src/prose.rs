@@ -8,6 +8,7 @@ pub(crate) mod template;
 use formula::Values;
 
 use crate::lesson::Lesson;
+use crate::map::MapFrame;
 
 /// A stretch of text in one style.
 #[derive(Clone, Debug, PartialEq)]
@@ -131,6 +132,8 @@ pub enum Block {
     Table(TableView),
     /// A plot.
     Plot(PlotView),
+    /// A map; its values take longer than a screen may, and are asked for apart.
+    Map(Box<MapFrame>),
     /// A fingerprint picture, drawn by whoever can.
     Picture {
         /// The lesson's id.

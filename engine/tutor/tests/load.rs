@@ -316,6 +316,64 @@ fn prose_types_no_numbers() {
 }
 
 #[test]
+fn means_are_those_of_a_picture() {
+    const MEANS: &str = "means = { size = [16, 32], right = [0.5, 0.5], wrong = [0.6, 0.7] }";
+    check_edit(
+        MEANS,
+        &MEANS.replace("[16, 32]", "[32, 16]"),
+        "16]",
+        "`size` is 16, which no scene can have.",
+    );
+    check_edit(
+        MEANS,
+        &MEANS.replace("32]", "32.5]"),
+        "32.5",
+        "`size` is 32.5, which no scene can have.",
+    );
+    check_edit(
+        MEANS,
+        &MEANS.replace("0.6, ", ""),
+        "0.7] }",
+        "`wrong` has 1 means for 2 sizes.",
+    );
+    check_edit(
+        MEANS,
+        &MEANS.replace(", wrong = [0.6, 0.7]", ""),
+        "{ size",
+        "`means` has no `wrong`.",
+    );
+    check_edit(MEANS, "", "", "The fingerprint `twice` has no `means`.");
+    check_edit(
+        "means_of = \"twice\"",
+        "means_of = \"twise\"",
+        "twise",
+        "No `[[fingerprint]]` is called `twise`.",
+    );
+    check_edit(
+        "panel = \"wrong\"",
+        "panel = \"left\"",
+        "\"left\"",
+        "A curve of means is of the right panel",
+    );
+}
+
+#[test]
+fn what_is_drawn_is_shown() {
+    check_edit(
+        "map = \"everywhere\"\n",
+        "",
+        "",
+        "No step and no re-teach shows `everywhere`.",
+    );
+    check_edit(
+        "map = \"everywhere\"",
+        "map = \"nowhere\"",
+        "nowhere",
+        "No `[[map]]` is called `nowhere`.",
+    );
+}
+
+#[test]
 fn references_and_ids() {
     check_edit(
         "picture = \"twice\"",
@@ -449,12 +507,24 @@ fn maps_are_checked() {
         "The scale runs from",
     );
     check_edit("to = 0.95", "to = 0.04", "0.04", "The axis runs");
+    let map = "[[map]]\nid = \"everywhere\"";
+    let plot = r#"
+[[plot]]
+id = "everywhere"
+title = "The same name"
+x = { name = "n_dot_v", from = 0.02, to = 1.0, label = "N·V" }
+y = { label = "N·V" }
+series = [{ label = "itself", is = "n_dot_v" }]
+"#;
     check_edit(
-        "id = \"everywhere\"",
-        "id = \"ratio\"",
-        "",
-        "Another `[[plot]]` is already called `ratio`",
+        map,
+        &format!("{plot}\n{map}"),
+        "everywhere\"\ntitle = \"The",
+        "No step and no re-teach shows `everywhere`.",
     );
+    let named = |finding: &tutor::Finding| finding.code == "id-given-twice";
+    let text = edited(map, &format!("{plot}\n{map}"));
+    assert!(findings(&text).iter().any(named));
     check_edit(
         "is = \"0.25 / (n_dot_l * n_dot_v)\"",
         "is = \"0.25 / (n_dot_l * n_dot_h)\"",
@@ -472,14 +542,15 @@ fn maps_are_checked() {
 #[test]
 fn a_map_has_its_values_from_the_bottom() {
     let lesson = load("complete.toml", COMPLETE).0.expect("a lesson");
-    let map = lesson.map("everywhere").expect("a map");
-    assert_eq!(map.values.len(), map.columns * map.columns);
+    let map = lesson.map_frame("everywhere").expect("a map");
+    let values = lesson.map_cells("everywhere", 48);
+    assert_eq!(values.len(), 48 * 48);
     let middle = |(from, to): (f64, f64), cell: f64| from + (to - from) * cell / 48.0;
     let at = |column: f64, row: f64| 0.25 / (middle(map.y, row) * middle(map.x, column));
-    assert!((map.values[0] - at(0.5, 0.5)).abs() < 1e-12);
+    assert!((values[0] - at(0.5, 0.5)).abs() < 1e-12);
     // One column to the right, on the uppermost row.
-    let upper = map.columns * (map.columns - 1) + 1;
-    assert!((map.values[upper] - at(1.5, 47.5)).abs() < 1e-12);
+    let upper = 48 * 47 + 1;
+    assert!((values[upper] - at(1.5, 47.5)).abs() < 1e-12);
 }
 
 /// A file that is not even TOML tells its first errors, not one a line.

@@ -6,15 +6,16 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget as _;
+use tutor::map::MapFrame;
 use tutor::prose::{Block, Inline, PlotView, TableView, plain};
 use unicode_width::UnicodeWidthStr as _;
 
-use super::picture;
+use super::picture::{self, Words};
 use super::plot;
 use super::style::Palette;
-use crate::fingerprints::Subject;
+use crate::fingerprints::{Kind, Subject};
 use crate::text::{self, Piece, Pieces, Role};
-use crate::tui::pictures::Pictures;
+use crate::tui::pictures::{Pictures, map_size};
 
 /// Prose wider than this is hard to read.
 const PROSE: u16 = 90;
@@ -27,7 +28,14 @@ const PLOT: u16 = 38;
 enum What {
     Line(Line<'static>),
     Plot(Box<PlotView>),
-    Picture { subject: Subject, title: String },
+    Picture {
+        subject: Subject,
+        title: String,
+    },
+    Map {
+        subject: Subject,
+        frame: Box<MapFrame>,
+    },
 }
 
 struct Placed {
@@ -50,7 +58,7 @@ pub struct Page {
 fn is_figure(block: &Block) -> bool {
     matches!(
         block,
-        Block::Table(_) | Block::Plot(_) | Block::Picture { .. }
+        Block::Table(_) | Block::Plot(_) | Block::Map(_) | Block::Picture { .. }
     )
 }
 
@@ -128,11 +136,14 @@ impl Page {
     /// The pictures of this page and the sizes wanted.
     pub fn pictures(&self) -> impl Iterator<Item = (&Subject, u16, u16)> {
         self.placed.iter().filter_map(|placed| match &placed.what {
-            What::Picture { subject, .. } => Some((
-                subject,
-                placed.width,
-                placed.height as u16 - picture::AROUND,
-            )),
+            What::Picture { subject, .. } | What::Map { subject, .. } => {
+                let width = match &placed.what {
+                    // Its words may be wider.
+                    What::Map { .. } => map_size(placed.width).0,
+                    _ => placed.width,
+                };
+                Some((subject, width, placed.height as u16 - picture::AROUND))
+            }
             _ => None,
         })
     }
@@ -141,7 +152,7 @@ impl Page {
     pub fn picture_in(&self, rows: std::ops::Range<usize>) -> Option<&Subject> {
         self.placed.iter().find_map(|placed| match &placed.what {
             What::Picture { subject, .. }
-                if subject.own.is_none()
+                if subject.kind == Kind::Fingerprint
                     && placed.y < rows.end
                     && placed.y + placed.height > rows.start =>
             {
@@ -177,17 +188,22 @@ impl Page {
                     plot::draw(view, palette, whole, &mut drawn);
                     copy_visible(&drawn, placed, scroll, area, buffer);
                 }
-                What::Picture { subject, title } => {
+                What::Picture { subject, .. } | What::Map { subject, .. } => {
                     let window = Rect {
                         x: area.x + placed.x,
                         width,
                         ..area
                     };
+                    let words = match &placed.what {
+                        What::Map { frame, .. } => Words::of_map(frame),
+                        What::Picture { title, .. } => Words::of_picture(title, subject, width),
+                        What::Line(_) | What::Plot(_) => continue,
+                    };
                     let offset = placed.y as i32 - scroll as i32;
                     picture::draw(
                         pictures,
                         subject,
-                        title,
+                        &words,
                         placed.height as u16,
                         offset,
                         palette,
@@ -233,6 +249,19 @@ impl Page {
                         height as usize,
                     );
                 }
+                Block::Map(frame) => {
+                    let (_, rows) = map_size(width);
+                    let what = What::Map {
+                        subject: Subject {
+                            lesson: frame.lesson.clone(),
+                            id: frame.id.clone(),
+                            kind: Kind::Map,
+                        },
+                        frame: frame.clone(),
+                    };
+                    self.put(&mut slot, what, usize::from(rows + picture::AROUND));
+                    self.put_caption(&frame.caption, &mut slot, palette);
+                }
                 Block::Picture {
                     lesson,
                     id,
@@ -245,14 +274,12 @@ impl Page {
                         subject: Subject {
                             lesson: lesson.clone(),
                             id: id.clone(),
-                            own: own.clone(),
+                            kind: own.clone().map_or(Kind::Fingerprint, Kind::Own),
                         },
                         title: title.clone(),
                     };
                     self.put(&mut slot, what, height);
-                    for line in text::wrap(&text::pieces(caption), width.min(PROSE) as usize) {
-                        self.put(&mut slot, What::Line(styled(line, palette)), 1);
-                    }
+                    self.put_caption(caption, &mut slot, palette);
                 }
                 _ => {}
             }
@@ -260,6 +287,12 @@ impl Page {
             x += width + 3;
         }
         column.y = lowest + 1;
+    }
+
+    fn put_caption(&mut self, caption: &[Inline], slot: &mut Column, palette: Palette) {
+        for line in text::wrap(&text::pieces(caption), slot.width.min(PROSE) as usize) {
+            self.put(slot, What::Line(styled(line, palette)), 1);
+        }
     }
 
     fn put(&mut self, column: &mut Column, what: What, height: usize) {
@@ -506,7 +539,7 @@ fn prose(block: &Block, width: usize, palette: Palette) -> Vec<Line<'static>> {
             let bar = Span::styled("▌ ", palette.quiet());
             hanging(&all, width, bar.clone(), bar, palette)
         }
-        Block::Table(_) | Block::Plot(_) | Block::Picture { .. } => Vec::new(),
+        Block::Table(_) | Block::Plot(_) | Block::Map(_) | Block::Picture { .. } => Vec::new(),
     }
 }
 

@@ -6,8 +6,11 @@ use ratatui::text::Line;
 use ratatui::widgets::Widget as _;
 use ratatui_image::sliced::{SignedPosition, SlicedImage};
 
+use tutor::map::MapFrame;
+
 use super::style::Palette;
-use crate::fingerprints::Subject;
+use crate::fingerprints::{Kind, Subject};
+use crate::maps::legend;
 use crate::tui::pictures::{Pictures, State};
 
 /// Rows around a picture: its title, the names of its panels, what the colours say.
@@ -24,13 +27,44 @@ pub const COLOURS: &str = "blue: too dark · white: right · orange: too bright"
 /// What the signs there say, where there are no colours.
 pub const SIGNS: &str = "- too dark · = right · + too bright";
 
+/// What stands around a picture.
+pub struct Words<'a> {
+    title: &'a str,
+    /// Right below it.
+    names: String,
+    /// What its colours say, and what its letters say where it has none.
+    keys: [String; 2],
+}
+
+impl<'a> Words<'a> {
+    /// Of the three panels of a fingerprint or of a learner's own shader.
+    pub fn of_picture(title: &'a str, subject: &Subject, width: u16) -> Self {
+        let is_own = matches!(subject.kind, Kind::Own(_));
+        Self {
+            title,
+            names: names(usize::from(width), is_own),
+            keys: [COLOURS, SIGNS].map(str::to_owned),
+        }
+    }
+
+    pub fn of_map(frame: &'a MapFrame) -> Self {
+        let [axes, key] = legend(frame, true);
+        let [_, signs] = legend(frame, false);
+        Self {
+            title: &frame.title,
+            names: axes,
+            keys: [key, signs],
+        }
+    }
+}
+
 /// Draws a picture `height` rows high that begins `offset` rows below the top of `window`
 /// (above it, where negative).
 #[allow(clippy::too_many_arguments)]
 pub fn draw(
     pictures: &Pictures,
     subject: &Subject,
-    title: &str,
+    words: &Words<'_>,
     height: u16,
     offset: i32,
     palette: Palette,
@@ -49,22 +83,27 @@ pub fn draw(
             );
         }
     };
-    line(offset, Line::styled(title.to_owned(), palette.title()));
+    line(
+        offset,
+        Line::styled(words.title.to_owned(), palette.title()),
+    );
     line(
         offset + i32::from(height) - 2,
-        Line::styled(
-            names(window.width as usize, subject.own.is_some()),
-            palette.quiet(),
-        ),
+        Line::styled(words.names.clone(), palette.quiet()),
     );
     let state = pictures.state(subject);
     let key = match state {
-        Some(State::Shades(_)) => SIGNS,
-        _ => COLOURS,
+        Some(State::Shades(_)) => &words.keys[1],
+        _ => &words.keys[0],
     };
     line(
         offset + i32::from(height) - 1,
-        Line::styled(key, palette.quiet()).right_aligned(),
+        match subject.kind {
+            Kind::Map => Line::styled(key.clone(), palette.quiet()),
+            Kind::Fingerprint | Kind::Own(_) => {
+                Line::styled(key.clone(), palette.quiet()).right_aligned()
+            }
+        },
     );
     let middle = offset + i32::from(height / 2);
     match state {

@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use super::Checker;
-use crate::finding::Finding;
-use crate::lesson::{Exercise, Figures, Lesson, Task, Text};
+use crate::finding::{Finding, Severity};
+use crate::lesson::{Curve, Exercise, Figures, Lesson, Task, Text};
 use crate::load::nearest;
 
 /// Letters, digits and single hyphens, a letter first.
@@ -43,6 +43,12 @@ pub fn check(checker: &mut Checker<'_>) {
     for reteach in &lesson.reteach {
         figures(checker, &reteach.figures);
     }
+    for plot in &lesson.plots {
+        for series in &plot.series {
+            means(checker, &series.is);
+        }
+    }
+    unseen(checker);
     for exercise in &lesson.exercises {
         exercise_names(checker, exercise);
     }
@@ -99,16 +105,65 @@ fn figures(checker: &mut Checker<'_>, figures: &Figures) {
     let lesson = checker.lesson;
     let tables: Vec<&str> = lesson.tables.iter().map(|it| it.id.text.as_str()).collect();
     let plots: Vec<&str> = lesson.plots.iter().map(|it| it.id.text.as_str()).collect();
+    let maps: Vec<&str> = lesson.maps.iter().map(|it| it.id.text.as_str()).collect();
     let prints = lesson.fingerprints.iter().map(|it| it.id.text.as_str());
     let prints: Vec<&str> = prints.collect();
     for (ids, known, what) in [
         (&figures.table, tables, "table"),
         (&figures.plot, plots, "plot"),
+        (&figures.map, maps, "map"),
         (&figures.picture, prints, "fingerprint"),
     ] {
         for id in ids {
             refers(checker, id, &known, what);
         }
+    }
+}
+
+/// A curve of means: the fingerprint, and that it has some.
+fn means(checker: &mut Checker<'_>, curve: &Curve) {
+    let Curve::Means { picture, .. } = curve else {
+        return;
+    };
+    let prints = &checker.lesson.fingerprints;
+    let known: Vec<&str> = prints.iter().map(|it| it.id.text.as_str()).collect();
+    let found = prints.iter().find(|it| it.id.text == picture.text);
+    if found.is_some_and(|print| print.means.is_none()) {
+        let message = format!("The fingerprint `{picture}` has no `means`.");
+        checker.error_in(picture, "unknown-id", message).help = Some(
+            "Give it some: means = { size = [64, 512], right = [0.1, 0.1], wrong = [0.2, 0.3] }"
+                .to_owned(),
+        );
+    } else {
+        refers(checker, picture, &known, "fingerprint");
+    }
+}
+
+/// What is drawn and stands on no screen.
+fn unseen(checker: &mut Checker<'_>) {
+    let lesson = checker.lesson;
+    let steps = lesson.steps.iter().map(|it| &it.figures);
+    let shown: Vec<&Figures> = steps
+        .chain(lesson.reteach.iter().map(|it| &it.figures))
+        .collect();
+    let is_shown = |id: &Text, of: fn(&Figures) -> &Vec<Text>| {
+        shown
+            .iter()
+            .any(|it| of(it).iter().any(|it| it.text == id.text))
+    };
+    let plots = lesson.plots.iter().map(|it| &it.id);
+    let plots = plots
+        .filter(|id| !is_shown(id, |it| &it.plot))
+        .map(|id| (id, "plot"));
+    let maps = lesson.maps.iter().map(|it| &it.id);
+    let maps = maps
+        .filter(|id| !is_shown(id, |it| &it.map))
+        .map(|id| (id, "map"));
+    for (id, key) in plots.chain(maps) {
+        let message = format!("No step and no re-teach shows `{id}`.");
+        let finding = checker.error_in(id, "not-shown", message);
+        finding.severity = Severity::Warning;
+        finding.help = Some(format!("Show it below a text: {key} = \"{id}\"."));
     }
 }
 

@@ -4,7 +4,7 @@ use formula::Values;
 
 use super::Checker;
 use crate::finding::Place;
-use crate::lesson::{Formula, SourceSays, Table, Test, Text, values};
+use crate::lesson::{Curve, Formula, SourceSays, Table, Test, Text, values};
 use crate::plot::{compile_curve, known_at};
 use crate::table::{row_count, row_values};
 use crate::worked::digits_of;
@@ -203,14 +203,18 @@ fn limit(checker: &mut Checker<'_>, table: &Table) {
 
 fn check_plot(checker: &mut Checker<'_>, plot: &crate::lesson::Plot) {
     for series in &plot.series {
+        // Whether there are means is a matter of names.
+        let Curve::Formula(formula) = &series.is else {
+            continue;
+        };
         let known = known_at(plot, &series.with);
         let mut names: Vec<&str> = known.keys().map(String::as_str).collect();
         names.push(&plot.x.name.text);
-        if !checker.expression(&series.is, &names) {
+        if !checker.expression(formula, &names) {
             continue;
         }
         let Ok((program, mut inputs)) =
-            compile_curve(checker.lesson, plot, &series.is.expr, &series.with)
+            compile_curve(checker.lesson, plot, &formula.expr, &series.with)
         else {
             continue;
         };
@@ -225,7 +229,7 @@ fn check_plot(checker: &mut Checker<'_>, plot: &crate::lesson::Plot) {
         }
         if drawn < 2 {
             let message = format!("\"{}\" has no points to draw on this axis.", series.label);
-            checker.error_in(&series.is.text, "nothing-to-draw", message);
+            checker.error_in(&formula.text, "nothing-to-draw", message);
         }
     }
     for mark in &plot.marks {

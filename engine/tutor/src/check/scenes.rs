@@ -2,7 +2,7 @@
 
 use super::Checker;
 use crate::finding::Place;
-use crate::lesson::{Fingerprint, SEEN, SceneLight};
+use crate::lesson::{Fingerprint, MEAN_SIZES, SEEN, SceneLight};
 
 /// Quantities that a point of the scene has; nobody can give them.
 const FOLLOW: [&str; 6] = [
@@ -13,6 +13,7 @@ pub fn check(checker: &mut Checker<'_>) {
     for print in &checker.lesson.fingerprints {
         givens(checker, print);
         lights(checker, print);
+        means(checker, print);
         for seen in &print.seen {
             let name = seen.name.text.as_str();
             if !SEEN.contains(&name) {
@@ -61,6 +62,28 @@ fn givens(checker: &mut Checker<'_>, print: &Fingerprint) {
             _ => continue,
         };
         within(checker, given.place, name, value, fits, range);
+    }
+}
+
+fn means(checker: &mut Checker<'_>, print: &Fingerprint) {
+    let Some(means) = &print.means else { return };
+    let mut least = *MEAN_SIZES.start();
+    for size in &means.sizes {
+        let fits = (least..=*MEAN_SIZES.end()).contains(&size.value) && size.value.fract() == 0.0;
+        let range = format!("a whole number from {least} to {}", MEAN_SIZES.end());
+        within(checker, size.place, "size", size.value, fits, &range);
+        least = least.max(size.value + 1.0);
+    }
+    for (name, values) in [("right", &means.right), ("wrong", &means.wrong)] {
+        if values.len() != means.sizes.len() {
+            let message = format!(
+                "`{name}` has {} means for {} sizes.",
+                values.len(),
+                means.sizes.len()
+            );
+            let place = values.first().map_or(print.id.place, |first| first.place);
+            checker.error(place, "count-differs", message);
+        }
     }
 }
 

@@ -134,6 +134,7 @@ fn tables_and_plots(checker: &mut Checker<'_>) {
     for map in &lesson.maps {
         let known = values(&map.with);
         prose(checker, &map.title, &known);
+        optional(checker, map.says.as_ref(), &known);
         for text in [&map.x.label, &map.y.label, &map.value_label] {
             label(checker, text, &known);
         }

@@ -23,10 +23,45 @@ pub struct Fingerprint {
     pub lights: Vec<SceneLight>,
     /// Figures of the picture, as they are printed: `lobe check` compares them.
     pub seen: Vec<Given>,
+    /// What becomes of the panels' means as the picture grows.
+    pub means: Option<Means>,
     /// What the eye sees (prose).
     pub shows: Text,
     /// Where it does not show (prose).
     pub hides: Option<Text>,
+}
+
+/// `means`: the mean of the radiance over the sphere's disc, in pictures of several sizes, as it is
+/// printed: `lobe check` compares it with the pictures.
+#[derive(Clone, Debug)]
+pub struct Means {
+    /// Pixels a side of a panel.
+    pub sizes: Vec<Printed>,
+    /// Of the right formula, at each size.
+    pub right: Vec<Printed>,
+    /// Of the wrong one.
+    pub wrong: Vec<Printed>,
+}
+
+/// Sizes of pictures of which a mean can be quoted, in pixels a side of a panel.
+pub const MEAN_SIZES: std::ops::RangeInclusive<f64> = 16.0..=1024.0;
+
+impl Means {
+    /// Sizes and means of one of the panels.
+    pub fn points(&self, wrong: bool) -> Vec<(f64, f64)> {
+        let means = if wrong { &self.wrong } else { &self.right };
+        let sizes = self.sizes.iter().map(|size| size.value);
+        sizes.zip(means.iter().map(|mean| mean.value)).collect()
+    }
+}
+
+/// A number of the file.
+#[derive(Clone, Copy, Debug)]
+pub struct Printed {
+    /// The number.
+    pub value: f64,
+    /// Where it stands.
+    pub place: Place,
 }
 
 /// One light of a scene.

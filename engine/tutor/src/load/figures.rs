@@ -4,7 +4,7 @@ use formula::Digits;
 
 use super::each_some;
 use super::reader::{Table, place};
-use crate::lesson::{AxisX, AxisY, Column, Limit, Map, Mark, Plot, Series, Text};
+use crate::lesson::{AxisX, AxisY, Column, Curve, Limit, Map, Mark, Plot, Series, Text};
 use crate::map::Scale;
 
 pub fn read_table(table: &Table<'_, '_>) -> crate::lesson::Table {
@@ -107,11 +107,12 @@ pub fn read_plot(table: &Table<'_, '_>) -> Plot {
         axis
     });
     let series = each_some(table, "series", "A series", |series| {
-        Some(Series {
-            label: series.need_text("label"),
-            with: series.givens("with"),
-            is: series.need_formula("is")?,
-        })
+        let (label, with) = (series.need_text("label"), series.givens("with"));
+        let is = match series.text("means_of") {
+            Some(picture) => read_means(series, picture),
+            None => Curve::Formula(series.need_formula("is")?),
+        };
+        Some(Series { label, is, with })
     });
     if series.is_empty() {
         table.missing("series", "series = [{ label = \"…\", is = \"…\" }]");
@@ -139,6 +140,25 @@ pub fn read_plot(table: &Table<'_, '_>) -> Plot {
             })
         }),
     }
+}
+
+/// A curve of measured means: of which panel.
+fn read_means(series: &Table<'_, '_>, picture: Text) -> Curve {
+    let panel = series.text("panel");
+    let wrong = match panel.as_deref() {
+        Some("wrong") => true,
+        Some("right") => false,
+        _ => {
+            let message = "A curve of means is of the right panel or of the wrong one.".to_owned();
+            let expected = "panel = \"wrong\"";
+            match panel {
+                Some(_) => series.wrong("panel", "unknown-name", message, expected),
+                None => series.missing("panel", expected),
+            }
+            false
+        }
+    };
+    Curve::Means { picture, wrong }
 }
 
 /// An axis along which a variable runs.
@@ -237,6 +257,7 @@ pub fn read_map(table: &Table<'_, '_>) -> Option<Map> {
         y,
         value_label,
         scale,
+        says: table.text("says"),
         with: table.givens("with"),
         is: table.need_formula("is")?,
     })

@@ -9,7 +9,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::literal;
 use crate::finding::{Finding, Place};
-use crate::lesson::{EntryPlaces, Figures, Formula, Given, Text};
+use crate::lesson::{EntryPlaces, Figures, Formula, Given, Printed, Text};
 
 /// A file being read.
 pub struct Source<'a> {
@@ -238,6 +238,26 @@ impl<'s, 't> Table<'s, 't> {
         }
     }
 
+    /// An array of numbers with their places; it has to be there.
+    pub fn printed(&self, key: &'static str) -> Vec<Printed> {
+        let Some(value) = self.get(key) else {
+            self.missing(key, &format!("{key} = [1.0, 2.0]"));
+            return Vec::new();
+        };
+        let Some(array) = value.get_ref().as_array() else {
+            let what = format!("`{key}`");
+            self.source.wrong_kind(value, &what, "an array of numbers");
+            return Vec::new();
+        };
+        let entries = array.iter().filter_map(|entry| {
+            Some(Printed {
+                value: self.as_number(entry, &format!("An entry of `{key}`"))?,
+                place: place(entry),
+            })
+        });
+        entries.collect()
+    }
+
     /// The entries of a table of anything, in the file's order, keys included.
     pub fn entries(&self, key: &'static str) -> Vec<(Text, &'t Spanned<DeValue<'t>>)> {
         let Some(value) = self.get(key) else {
@@ -331,6 +351,7 @@ impl<'s, 't> Table<'s, 't> {
         Figures {
             table: self.texts("table"),
             plot: self.texts("plot"),
+            map: self.texts("map"),
             picture: self.texts("picture"),
         }
     }

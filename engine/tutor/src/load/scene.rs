@@ -2,13 +2,22 @@
 
 use super::each_some;
 use super::reader::Table;
-use crate::lesson::{Fingerprint, SceneLight};
+use crate::lesson::{Fingerprint, Means, SceneLight};
 
 pub fn read_fingerprint(table: &Table<'_, '_>) -> Option<Fingerprint> {
     let (id, title) = (table.need_text("id"), table.need_text("title"));
     let (scene, seen) = (table.givens("scene"), table.givens("seen"));
     let (shows, hides) = (table.need_text("shows"), table.text("hides"));
     let lights = each_some(table, "light", "[[fingerprint.light]]", read_light);
+    let means = table.table("means", "`means`").map(|means| {
+        let found = Means {
+            sizes: means.printed("size"),
+            right: means.printed("right"),
+            wrong: means.printed("wrong"),
+        };
+        means.finish();
+        found
+    });
     let (right, wrong) = (table.need_formula("right"), table.need_formula("wrong"));
     Some(Fingerprint {
         id,
@@ -18,6 +27,7 @@ pub fn read_fingerprint(table: &Table<'_, '_>) -> Option<Fingerprint> {
         scene,
         lights,
         seen,
+        means,
         shows,
         hides,
     })

@@ -168,6 +168,19 @@ fn write_block(out: &mut String, block: &Block) {
         Block::Quote(text) => line(out, &format!("> {}", inlines(text).replace('\n', "\n> "))),
         Block::Table(table) => write_table(out, table),
         Block::Plot(plot) => write_plot(out, plot),
+        Block::Map(map) => {
+            let words = format!(
+                "**Map: {}** ({} over {} and {})",
+                escape(&map.title),
+                escape(&map.value_label),
+                escape(&map.x_label),
+                escape(&map.y_label)
+            );
+            line(out, &words);
+            if !map.caption.is_empty() {
+                line(out, &inlines(&map.caption));
+            }
+        }
         Block::Picture { title, caption, .. } => {
             line(out, &format!("**Picture: {}**", escape(title)));
             if !caption.is_empty() {

@@ -95,6 +95,7 @@ fn words(session: &Session) -> String {
             Block::List { items, .. } => items.iter().map(|item| plain(item) + "\n").collect(),
             Block::Table(table) => table.title.clone(),
             Block::Plot(plot) => plot.title.clone(),
+            Block::Map(map) => map.title.clone(),
             Block::Picture { title, .. } => title.clone(),
             Block::Derivation { name, value, .. } => format!("{name} = {value}"),
             Block::Verdict { title, text, .. } => format!("{title}: {}", plain(text)),
