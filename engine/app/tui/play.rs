@@ -88,7 +88,8 @@ pub struct Play {
     pub title: String,
     pub dials: Dials,
     preview: Preview,
-    /// The panels as they were drawn last, with their figures; or why there are none.
+    /// The panels as they were drawn last, with their figures (the pixels are in the second); or
+    /// why there are none.
     pub shown: Result<(Frame, Drawn), String>,
     /// What they were drawn for.
     drawn_for: Option<(Dials, Rect)>,
@@ -135,7 +136,7 @@ impl Play {
             _ => u32::from(picker.font_size().width),
         };
         let size = (u32::from(area.width) * cell / 3).clamp(64, MOST);
-        let frame = self
+        let mut frame = self
             .preview
             .draw(&self.dials.scene(), size, self.dials.stops())
             .map_err(|error| error.to_string())?;
@@ -143,7 +144,7 @@ impl Play {
         let drawn = paint_again(
             picker,
             palette.has_colours(),
-            (frame.width, frame.height, frame.rgba.clone()),
+            (frame.width, frame.height, std::mem::take(&mut frame.rgba)),
             Size::new(area.width, area.height),
             self.frames,
         )?;

@@ -74,14 +74,21 @@ pub(crate) enum Code {
     MostSame,
     Compare(CompareOp),
     CompareSame(CompareOp),
-    /// r = r ∘ p, or p ∘ r, where p is an operation of a slot with another operand: it need not
-    /// be written down in between.
-    WithPair(Outer, Inner),
+    /// r = p, r = r ∘ p or r = p ∘ r, where p is an operation of a slot with another operand,
+    /// which need not be written down in between. The number is that of [`pair`].
+    Pair(u8),
+}
+
+/// What is done with a pair, as one number: so the machine looks once at what it is.
+pub(crate) fn pair(outer: Outer, inner: Inner) -> Code {
+    Code::Pair(10 * outer as u8 + inner as u8)
 }
 
 /// What is done with the register and a pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Outer {
+    /// r = p: a chain begins with it.
+    Only,
     Add,
     Sub,
     SubFrom,
@@ -255,6 +262,44 @@ unsafe fn run<V: Lanes>(code: &[Instr], slots: &[*mut V::Real], same: &[V::Real]
                     (@ m $op:ident c $m:ident $c:ident) => { $m.$op($c) };
                     (@ c $op:ident m $m:ident $c:ident) => { $c.$op($m) };
                 }
+                /// The same with any pair, by its number: a row for each [`Outer`], in it one for
+                /// each [`Inner`].
+                macro_rules! pairs {
+                    ($number:expr, $(
+                        [$add:literal $add_same:literal $sub:literal $sub_same:literal
+                         $sub_from_same:literal $mul:literal $mul_same:literal $div:literal
+                         $div_same:literal $div_into_same:literal]
+                        |$r:ident, $p:ident| $new:expr;
+                    )+) => {
+                        match $number {
+                            $(
+                                $add => pair!(|$r, $p = m.add(n)| $new),
+                                $add_same => pair_same!(|$r, $p = m.add(c)| $new),
+                                $sub => pair!(|$r, $p = m.sub(n)| $new),
+                                $sub_same => pair_same!(|$r, $p = m.sub(c)| $new),
+                                $sub_from_same => pair_same!(|$r, $p = c.sub(m)| $new),
+                                $mul => pair!(|$r, $p = m.mul(n)| $new),
+                                $mul_same => pair_same!(|$r, $p = m.mul(c)| $new),
+                                $div => pair!(|$r, $p = m.div(n)| $new),
+                                $div_same => pair_same!(|$r, $p = m.div(c)| $new),
+                                $div_into_same => pair_same!(|$r, $p = c.div(m)| $new),
+                            )+
+                            _ => {}
+                        }
+                    };
+                }
+                if let Code::Pair(number) = instr.code {
+                    pairs!(number,
+                        [0 1 2 3 4 5 6 7 8 9] |_r, p| p;
+                        [10 11 12 13 14 15 16 17 18 19] |r, p| r.add(p);
+                        [20 21 22 23 24 25 26 27 28 29] |r, p| r.sub(p);
+                        [30 31 32 33 34 35 36 37 38 39] |r, p| p.sub(r);
+                        [40 41 42 43 44 45 46 47 48 49] |r, p| r.mul(p);
+                        [50 51 52 53 54 55 56 57 58 59] |r, p| r.div(p);
+                        [60 61 62 63 64 65 66 67 68 69] |r, p| p.div(r);
+                    );
+                    continue;
+                }
                 macro_rules! value {
                     () => {
                         V::splat(*same.get_unchecked(at as usize))
@@ -332,32 +377,8 @@ unsafe fn run<V: Lanes>(code: &[Instr], slots: &[*mut V::Real], same: &[V::Real]
                         let c = value!();
                         each!(|r| r.compare(op, c));
                     }
-                    Code::WithPair(outer, inner) => {
-                        macro_rules! inner {
-                            (|$r:ident, $p:ident| $new:expr) => {
-                                match inner {
-                                    Inner::Add => pair!(|$r, $p = m.add(n)| $new),
-                                    Inner::Sub => pair!(|$r, $p = m.sub(n)| $new),
-                                    Inner::Mul => pair!(|$r, $p = m.mul(n)| $new),
-                                    Inner::Div => pair!(|$r, $p = m.div(n)| $new),
-                                    Inner::AddSame => pair_same!(|$r, $p = m.add(c)| $new),
-                                    Inner::SubSame => pair_same!(|$r, $p = m.sub(c)| $new),
-                                    Inner::SubFromSame => pair_same!(|$r, $p = c.sub(m)| $new),
-                                    Inner::MulSame => pair_same!(|$r, $p = m.mul(c)| $new),
-                                    Inner::DivSame => pair_same!(|$r, $p = m.div(c)| $new),
-                                    Inner::DivIntoSame => pair_same!(|$r, $p = c.div(m)| $new),
-                                }
-                            };
-                        }
-                        match outer {
-                            Outer::Add => inner!(|r, p| r.add(p)),
-                            Outer::Sub => inner!(|r, p| r.sub(p)),
-                            Outer::SubFrom => inner!(|r, p| p.sub(r)),
-                            Outer::Mul => inner!(|r, p| r.mul(p)),
-                            Outer::Div => inner!(|r, p| r.div(p)),
-                            Outer::DivInto => inner!(|r, p| p.div(r)),
-                        }
-                    }
+                    // Done above.
+                    Code::Pair(_) => {}
                 }
             }
             start += V::TILE * V::WIDTH;
@@ -454,6 +475,7 @@ mod tests {
             codes.extend([Compare(op), CompareSame(op)]);
         }
         let outers = [
+            Outer::Only,
             Outer::Add,
             Outer::Sub,
             Outer::SubFrom,
@@ -474,7 +496,7 @@ mod tests {
             Inner::DivIntoSame,
         ];
         for outer in outers {
-            codes.extend(inners.map(|inner| WithPair(outer, inner)));
+            codes.extend(inners.map(|inner| pair(outer, inner)));
         }
         codes
     }

@@ -4,7 +4,7 @@
 use crate::builtin::Builtin;
 use crate::dag::{Id, Op, TermRef};
 use crate::expr::CompareOp;
-use crate::machine::{Code, Inner, Instr, Outer};
+use crate::machine::{Code, Inner, Instr, Outer, pair};
 
 /// Where a chunk of values lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -364,14 +364,19 @@ impl Planner<'_> {
 
     /// An operation with a pair, which is loaded with it.
     fn with_pair(&mut self, id: Id, pair: Id) {
-        let (Some((a, b, [right, left])), Some((m, n, codes))) =
-            (outer(&self.ops[id]), inner(&self.ops[pair]))
-        else {
+        let Some((a, b, [right, left])) = outer(&self.ops[id]) else {
             return;
         };
         let (first, outer) = if b == pair { (a, right) } else { (b, left) };
         self.load(first);
-        let [slots, same_right, same_left] = codes;
+        self.pair(pair, outer);
+    }
+
+    /// What is done with an operation on values in memory as a pair.
+    fn pair(&mut self, id: Id, outer: Outer) {
+        let Some((m, n, [slots, same_right, same_left])) = inner(&self.ops[id]) else {
+            return;
+        };
         let (inner, m, n) = match (self.same[m], self.same[n]) {
             (true, _) => (same_left, n, m),
             (false, true) => (same_right, m, n),
@@ -379,12 +384,21 @@ impl Planner<'_> {
         };
         let with = if self.same[n] { n } else { self.slot(n) };
         let at = self.slot(m);
-        self.push_pair(Code::WithPair(outer, inner), at, with);
+        self.push_pair(pair(outer, inner), at, with);
+    }
+
+    /// Whether an operation's operands lie in memory, or one of them is the same everywhere, and
+    /// it can begin a chain. One value used twice is better loaded once.
+    fn begins(&self, id: Id) -> bool {
+        let free = |operand: Id| self.register != Some(operand);
+        inner(&self.ops[id]).is_some_and(|(a, b, _)| a != b && free(a) && free(b))
     }
 
     fn operation(&mut self, id: Id, next: Option<Id>) {
         if let Some(pair) = self.pair[id] {
             self.with_pair(id, pair);
+        } else if self.begins(id) {
+            self.pair(id, Outer::Only);
         } else if let Some((operand, code)) = unary(&self.ops[id]) {
             self.load(operand);
             self.run.extend(code);
