@@ -1,6 +1,6 @@
 //! The exact reflectance of a conductor in three colours.
 
-use super::lanes::{At, Column, Kernel, Lanes, Out, run};
+use super::lanes::{At, Column, Kernel, Lanes, Out, leave, run};
 use super::{Isa, Level, dispatch, dispatch_lanes};
 use crate::fresnel::f_conductor;
 use crate::real::{Fused, Real, Single};
@@ -210,27 +210,31 @@ fn quotients<V: Lanes, T: Lanes>(
         v_dot_h: Column::new(v_dot_h, n),
         out: out.map(|out| Out::new(out, n)),
     };
-    run::<V, T>(n, &kernel);
+    run::<V, T, _>(n, &kernel);
 }
 
-/// Dividend and divisor.
+/// Dividend and divisor as far as the third highest power.
 #[inline(always)]
-fn both<S: Lanes>(color: &Quotient<f32>, c: S) -> (S, S) {
-    let dividend = S::splat(color.dividend[DEGREE]).mul_add(c, S::splat(color.dividend[3]));
-    let divisor = c + S::splat(color.divisor[3]);
-    (
-        horner(dividend, &color.dividend, c),
-        horner(divisor, &color.divisor, c),
-    )
+fn begun<S: Lanes>(color: &Quotient<f32>, c: S) -> [S; 2] {
+    let [[_, _, p2, p3, p4], [_, _, q2, q3, _]] = [&color.dividend, &color.divisor];
+    let dividend = S::splat(*p4).mul_add(c, S::splat(*p3));
+    let divisor = c + S::splat(*q3);
+    [
+        dividend.mul_add(c, S::splat(*p2)),
+        divisor.mul_add(c, S::splat(*q2)),
+    ]
 }
 
-/// What follows the two highest powers.
+/// The two lowest powers.
 #[inline(always)]
-fn horner<S: Lanes>(begun: S, [c0, c1, c2, ..]: &[f32; DEGREE + 1], c: S) -> S {
-    begun
-        .mul_add(c, S::splat(*c2))
-        .mul_add(c, S::splat(*c1))
-        .mul_add(c, S::splat(*c0))
+fn done<S: Lanes>(color: &Quotient<f32>, c: S, dividend: S, divisor: S) -> [S; 2] {
+    let [[p0, p1, ..], [q0, q1, ..]] = [&color.dividend, &color.divisor];
+    let dividend = dividend.mul_add(c, S::splat(*p1));
+    let divisor = divisor.mul_add(c, S::splat(*q1));
+    [
+        dividend.mul_add(c, S::splat(*p0)),
+        divisor.mul_add(c, S::splat(*q0)),
+    ]
 }
 
 struct Quotients<'a> {
@@ -239,31 +243,32 @@ struct Quotients<'a> {
     out: [Out<'a>; 3],
 }
 
-impl<S: Lanes> Kernel<S> for Quotients<'_> {
-    /// Dividends and divisors.
-    type First = [(S, S); 3];
-    type Second = [S; 3];
-    type Third = ();
+impl<S: Lanes> Kernel<S, 6> for Quotients<'_> {
+    const STAGES: usize = 3;
 
     #[inline(always)]
-    fn first(&self, at: At) -> [(S, S); 3] {
-        let c = self.v_dot_h.at::<S>(at);
-        let c = c.at_least(S::splat(0.0)).at_most(S::splat(1.0));
+    fn stage<const STAGE: usize>(&self, at: At, left: [S; 6]) -> [S; 6] {
         let [r, g, b] = &self.colors;
-        [both(r, c), both(g, c), both(b, c)]
-    }
-
-    #[inline(always)]
-    fn second(&self, _: At, first: [(S, S); 3]) -> [S; 3] {
-        let [r, g, b] = first;
-        [r.0 / r.1, g.0 / g.1, b.0 / b.1]
-    }
-
-    #[inline(always)]
-    fn third(&self, at: At, [r, g, b]: [S; 3]) {
-        self.out[0].put(at, r);
-        self.out[1].put(at, g);
-        self.out[2].put(at, b);
+        match STAGE {
+            0 => {
+                let c = self.v_dot_h.at::<S>(at);
+                let c = c.at_least(S::splat(0.0)).at_most(S::splat(1.0));
+                let ([r0, r1], [g0, g1], [b0, b1]) = (begun(r, c), begun(g, c), begun(b, c));
+                let (r, g, b) = (done(r, c, r0, r1), done(g, c, g0, g1), done(b, c, b0, b1));
+                leave([r[0], r[1], g[0], g[1], b[0], b[1]])
+            }
+            1 => {
+                let [r0, r1, g0, g1, b0, b1] = left;
+                leave([r0 / r1, g0 / g1, b0 / b1])
+            }
+            _ => {
+                let [r, g, b, ..] = left;
+                self.out[0].put(at, r);
+                self.out[1].put(at, g);
+                self.out[2].put(at, b);
+                left
+            }
+        }
     }
 }
 

@@ -7,25 +7,60 @@ use std::f64::consts::FRAC_PI_2;
 /// sin and cos of 2π u for u in [0, 1], by polynomials on an eighth of a turn; within 1e-7.
 #[inline(always)]
 pub(crate) fn sin_cos_turn<S: Lanes>(u: S) -> (S, S) {
-    let lit = lanes::lit::<S>;
-    // Quarter turns, rounded by adding a large number, in whose last bits they are then.
-    let magic = lit(12_582_912.0);
-    let quarters = lit(4.0) * u;
-    let rounded = quarters + magic;
-    // The rest in [−½, ½] quarter turns; exact.
-    let r = quarters - (rounded - magic);
-    let r2 = r * r;
-    // Minimax of sin(π r/2)/r and cos(π r/2) in r².
-    let sin = r * lit(-4.601_657_4e-3)
-        .mul_add(r2, lit(7.968_003_3e-2))
-        .mul_add(r2, lit(-0.645_963_46))
-        .mul_add(r2, lit(FRAC_PI_2));
-    let cos = lit(-2.041_728_2e-2)
-        .mul_add(r2, lit(0.253_603_21))
-        .mul_add(r2, lit(-1.233_697_7))
-        .mul_add(r2, lit(1.0));
-    S::turned(rounded, sin, cos)
+    let turn = Turn::of(u);
+    let (sin, cos) = Turn::polynomials(turn.rest);
+    S::turned(turn.quarters, sin, cos)
 }
+
+/// An angle on its way to sine and cosine, which [`Lanes::turned`] completes.
+pub(super) struct Turn<S> {
+    /// Turns rounded to quarters by adding a large number: how many they are is in the last bits.
+    pub quarters: S,
+    /// The rest in turns, from −⅛ to ⅛; exact.
+    pub rest: S,
+}
+
+impl<S: Lanes> Turn<S> {
+    /// Of 2π u.
+    #[inline(always)]
+    pub fn of(u: S) -> Turn<S> {
+        let magic = lanes::lit::<S>(3_145_728.0);
+        let quarters = u + magic;
+        let rest = u - (quarters - magic);
+        Turn { quarters, rest }
+    }
+
+    /// Sine and cosine of the rest.
+    #[inline(always)]
+    pub fn polynomials(r: S) -> (S, S) {
+        let r2 = r * r;
+        // Minimax of sin(2π r)/r and cos(2π r) in r².
+        let [s3, s2, s1, s0] = SIN.map(|c| c as f32);
+        let sin = S::splat(s3)
+            .mul_add(r2, S::splat(s2))
+            .mul_add(r2, S::splat(s1))
+            .mul_add(r2, S::splat(s0));
+        let [c3, c2, c1] = COS.map(|c| c as f32);
+        let cos = S::splat(c3)
+            .mul_add(r2, S::splat(c2))
+            .mul_add(r2, S::splat(c1))
+            .mul_add(r2, S::splat(1.0));
+        (r * sin, cos)
+    }
+}
+
+/// Highest power first; fitted in quarters of a turn.
+const SIN: [f64; 4] = [
+    -4.601_657_4e-3 * 16_384.0,
+    7.968_003_3e-2 * 1_024.0,
+    -0.645_963_46 * 64.0,
+    FRAC_PI_2 * 4.0,
+];
+const COS: [f64; 3] = [
+    -2.041_728_2e-2 * 4_096.0,
+    0.253_603_21 * 256.0,
+    -1.233_697_7 * 16.0,
+];
 
 /// ln of a normal number.
 #[inline(always)]

@@ -200,6 +200,14 @@ impl<'a> Out<'a> {
         }
     }
 
+    /// What was put there.
+    #[inline(always)]
+    pub fn get<S: Lanes>(&self, At(i): At) -> S {
+        debug_assert!(i + S::COUNT <= self.len);
+        // SAFETY: as above.
+        unsafe { S::load(self.start.add(i)) }
+    }
+
     #[inline(always)]
     pub fn put<S: Lanes>(&self, At(i): At, value: S) {
         debug_assert!(i + S::COUNT <= self.len);
@@ -208,55 +216,121 @@ impl<'a> Out<'a> {
     }
 }
 
-/// What is done with each register full of numbers, in stages: what one leaves to the next is
-/// best what takes long, square roots and quotients.
-pub(crate) trait Kernel<S: Lanes> {
-    type First;
-    type Second;
-    type Third;
-    fn first(&self, at: At) -> Self::First;
-    fn second(&self, at: At, first: Self::First) -> Self::Second;
-    fn third(&self, at: At, second: Self::Second) -> Self::Third;
-    /// Most have done all in three.
-    #[inline(always)]
-    fn fourth(&self, _: At, _: Self::Third) {}
+/// What is done with each register full of numbers, in stages that leave up to `N` numbers a lane
+/// to the next.
+///
+/// In a stage nothing should wait for long: roots and quotients are best stages of their own, of
+/// what the stage before has made ready.
+pub(crate) trait Kernel<S: Lanes, const N: usize> {
+    /// How many stages there are, at most [`MOST`].
+    const STAGES: usize;
+
+    /// One of them, the first is 0. It gets what the one before left of the same numbers.
+    fn stage<const STAGE: usize>(&self, at: At, left: [S; N]) -> [S; N];
 }
 
-/// Runs a kernel over `n` numbers, in registers `V` and the rest one by one as `T`: beside the
-/// last stage of one register the third of the next, the second of the one after that and the
-/// first of one more.
+/// What a stage leaves, where others leave more.
 #[inline(always)]
-pub(crate) fn run<V: Lanes, T: Lanes>(n: usize, kernel: &(impl Kernel<V> + Kernel<T>)) {
-    let rest = run_registers::<V>(n, kernel);
-    for i in rest..n {
-        let at = At(i);
-        let first = Kernel::<T>::first(kernel, at);
-        let second = Kernel::<T>::second(kernel, at, first);
-        Kernel::<T>::fourth(kernel, at, Kernel::<T>::third(kernel, at, second));
+pub(crate) fn leave<S: Lanes, const M: usize, const N: usize>(numbers: [S; M]) -> [S; N] {
+    const { assert!(M <= N) };
+    let mut left = [S::splat(0.0); N];
+    left[..M].copy_from_slice(&numbers);
+    left
+}
+
+/// Most stages of a kernel.
+const MOST: usize = 10;
+
+/// Does something with the number of each stage but the first, last to first.
+macro_rules! for_later_stages {
+    ($do:ident) => {
+        $do!(9);
+        $do!(8);
+        $do!(7);
+        $do!(6);
+        $do!(5);
+        $do!(4);
+        $do!(3);
+        $do!(2);
+        $do!(1);
+    };
+}
+
+/// Runs a kernel over `n` numbers, in registers `V`, or one by one as `T` where they fill none.
+#[inline(always)]
+pub(crate) fn run<V: Lanes, T: Lanes, const N: usize>(
+    n: usize,
+    kernel: &(impl Kernel<V, N> + Kernel<T, N>),
+) {
+    if V::COUNT > 1 && n >= V::COUNT {
+        return run_registers::<V, N, _>(n, kernel);
+    }
+    for i in 0..n {
+        run_one::<T, N, _>(At(i), kernel);
     }
 }
 
-/// How many of `n` numbers are done.
+#[repr(align(64))]
+struct CacheLine(#[allow(dead_code)] [u8; 64]);
+
 #[inline(always)]
-fn run_registers<V: Lanes>(n: usize, kernel: &impl Kernel<V>) -> usize {
-    if V::COUNT == 1 || n < 3 * V::COUNT {
-        return 0;
+fn run_one<S: Lanes, const N: usize, K: Kernel<S, N>>(at: At, kernel: &K) {
+    let mut left = kernel.stage::<0>(at, leave([]));
+    macro_rules! stage {
+        ($i:literal) => {
+            // Upwards.
+            if K::STAGES > MOST - $i {
+                left = kernel.stage::<{ MOST - $i }>(at, left);
+            }
+        };
     }
-    let (mut a, mut b, mut c) = (At(0), At(V::COUNT), At(2 * V::COUNT));
-    let mut third = kernel.third(a, kernel.second(a, kernel.first(a)));
-    let mut second = kernel.second(b, kernel.first(b));
-    let mut first = kernel.first(c);
-    let mut done = 3 * V::COUNT;
-    while n - done >= V::COUNT {
-        kernel.fourth(a, third);
-        third = kernel.third(b, second);
-        second = kernel.second(c, first);
-        (a, b, c) = (b, c, At(done));
-        first = kernel.first(c);
-        done += V::COUNT;
+    for_later_stages!(stage);
+    let _ = left;
+}
+
+/// The same for a register at least: beside the last stage of one register the one before of the
+/// next, and so on. What is left over is done together with the numbers before it, once more.
+#[inline(always)]
+fn run_registers<V: Lanes, const N: usize, K: Kernel<V, N>>(n: usize, kernel: &K) {
+    // Registers that the compiler runs out of go to the stack. They would lie across two cache
+    // lines, were not something there that has to lie on one: only then the stack is aligned.
+    std::hint::black_box(&mut CacheLine([0; 64]));
+    let registers = n / V::COUNT;
+    let mut left = [leave::<V, 0, N>([]); MOST];
+    let mut step = 0;
+    while step < registers + K::STAGES - 1 {
+        if step + 1 == K::STAGES {
+            // From here on all stages have something to do.
+            while step < registers {
+                macro_rules! stage {
+                    ($i:literal) => {
+                        if K::STAGES > $i {
+                            let at = At((step - $i) * V::COUNT);
+                            left[$i] = kernel.stage::<$i>(at, left[$i - 1]);
+                        }
+                    };
+                }
+                for_later_stages!(stage);
+                left[0] = kernel.stage::<0>(At(step * V::COUNT), leave([]));
+                step += 1;
+            }
+        }
+        // The register that is at a stage, where there is one.
+        macro_rules! stage {
+            ($i:literal) => {
+                if K::STAGES > $i && step >= $i && step - $i < registers {
+                    let at = At((step - $i) * V::COUNT);
+                    left[$i] = kernel.stage::<$i>(at, left[$i - 1]);
+                }
+            };
+        }
+        for_later_stages!(stage);
+        if step < registers {
+            left[0] = kernel.stage::<0>(At(step * V::COUNT), leave([]));
+        }
+        step += 1;
     }
-    kernel.fourth(a, third);
-    kernel.fourth(b, kernel.third(b, second));
-    kernel.fourth(c, kernel.third(c, kernel.second(c, first)));
-    done
+    if !n.is_multiple_of(V::COUNT) {
+        run_one::<V, N, _>(At(n - V::COUNT), kernel);
+    }
 }

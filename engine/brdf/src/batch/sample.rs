@@ -1,7 +1,8 @@
 //! Drawing lights for one view.
 
-use super::lanes::{At, Column, Kernel, Lanes, Out, run};
-use super::{Isa, Level, dispatch_lanes, sin_cos_turn};
+use super::functions::Turn;
+use super::lanes::{At, Column, Kernel, Lanes, Out, leave, run};
+use super::{Isa, Level, dispatch_lanes};
 use glam::Vec3;
 use std::f64::consts::FRAC_1_PI;
 
@@ -39,7 +40,7 @@ fn sample_body<V: Lanes, T: Lanes>(v: Vec3, alpha: f32, u: [&[f32]; 2], out: Sam
         pdf,
         weight,
     };
-    run::<V, T>(n, &drawing);
+    run::<V, T, _>(n, &drawing);
 }
 
 struct Drawing<'a> {
@@ -51,61 +52,73 @@ struct Drawing<'a> {
     weight: Out<'a>,
 }
 
-impl<S: Lanes> Kernel<S> for Drawing<'_> {
-    /// Sine of the angle from the cap's pole, sine and cosine of that around it, and how far up
-    /// the half vector reaches.
-    type First = [S; 4];
-    /// The half vector, and how long it is where the surface is stretched over how long it is on
-    /// the surface, squared.
-    type Second = [S; 4];
-    /// The light's height, the root of the weight, and the density.
-    type Third = [S; 3];
+/// What a stage needs that is not the next waits where the results go: there are not as many
+/// registers as there are numbers under way.
+impl<S: Lanes> Kernel<S, 3> for Drawing<'_> {
+    const STAGES: usize = 9;
 
     #[inline(always)]
-    fn first(&self, at: At) -> [S; 4] {
-        let cap = &self.cap;
-        let (u0, u1) = (self.u[0].at::<S>(at), self.u[1].at::<S>(at));
-        // How far below the pole of the cap, and how far above the lowest point of its rim,
-        // without differences.
-        let depth = S::splat(cap.depth);
-        let up = (S::splat(1.0) - u1).mul_add(depth, S::splat(cap.lowest));
-        let sin2 = (depth * u1) * (up + S::splat(cap.under));
-        let (sin_phi, cos_phi) = sin_cos_turn(u0);
-        [sin2.sqrt(), sin_phi, cos_phi, up]
-    }
-
-    #[inline(always)]
-    fn second(&self, _: At, [sin, sin_phi, cos_phi, up]: [S; 4]) -> [S; 4] {
-        let cap = &self.cap;
-        // The half vector where the surface is stretched to α = 1, without its length: the sum
-        // of two directions.
-        let x = sin.mul_add(cos_phi, S::splat(cap.view[0]));
-        let y = sin.mul_add(sin_phi, S::splat(cap.view[1]));
-        let (across, up2) = (x.mul_add(x, y * y), up * up);
-        // |h|², which is 2 V·M over the stretched view's length, and the square of its length on
-        // the surface: their quotient is in the mirror and in D.
-        let squeezed = S::splat(cap.a2).mul_add(across, up2);
-        [x, y, up, (across + up2) / squeezed]
-    }
-
-    #[inline(always)]
-    fn third(&self, at: At, [x, y, up, mirror]: [S; 4]) -> [S; 3] {
-        let cap = &self.cap;
-        let aside = S::splat(cap.aside) * mirror;
-        let upward = S::splat(cap.upward) * mirror;
-        self.l[0].put(at, aside.mul_add(x, S::splat(-self.v[0])));
-        self.l[1].put(at, aside.mul_add(y, S::splat(-self.v[1])));
-        let l = upward.mul_add(up, S::splat(-self.v[2]));
-        self.l[2].put(at, l);
-        let square = (l * l).mul_add(S::splat(cap.square_slope), S::splat(cap.square));
-        [l, square.sqrt(), S::splat(cap.density) / (mirror * mirror)]
-    }
-
-    #[inline(always)]
-    fn fourth(&self, at: At, [l, root, density]: [S; 3]) {
-        let w = l.mul_add(S::splat(self.cap.length), root);
-        self.pdf.put(at, density);
-        self.weight.put(at, l.masks(l / w));
+    fn stage<const STAGE: usize>(&self, at: At, left: [S; 3]) -> [S; 3] {
+        let ([out_x, out_y, out_z], cap) = (&self.l, &self.cap);
+        match STAGE {
+            // The angle around the cap's pole; how far up the half vector reaches, and the squared
+            // sine of the angle from the pole.
+            0 => {
+                let (u0, u1) = (self.u[0].at::<S>(at), self.u[1].at::<S>(at));
+                let Turn { quarters, rest } = Turn::of(u0);
+                self.pdf.put(at, quarters);
+                // How far below the pole of the cap, and how far above the lowest point of its
+                // rim, without differences.
+                let up = (S::splat(1.0) - u1).mul_add(S::splat(cap.depth), S::splat(cap.lowest));
+                out_z.put(at, up);
+                let down = S::splat(cap.squeezed_depth) * u1;
+                leave([rest, down * (up + S::splat(cap.under))])
+            }
+            1 => {
+                let [rest, sin2, _] = left;
+                let (sin_phi, cos_phi) = Turn::polynomials(rest);
+                [sin_phi, cos_phi, sin2.sqrt()]
+            }
+            // The half vector, without its length: where the surface is stretched to α = 1 it is
+            // the sum of two directions.
+            2 => {
+                let [sin_phi, cos_phi, sin] = left;
+                let (sin_phi, cos_phi) = S::turned(self.pdf.get(at), sin_phi, cos_phi);
+                let x = sin.mul_add(cos_phi, S::splat(cap.view[0]));
+                let y = sin.mul_add(sin_phi, S::splat(cap.view[1]));
+                out_x.put(at, x);
+                out_y.put(at, y);
+                let up = out_z.get::<S>(at);
+                let (across, up2) = (x.mul_add(x, y * y), up * up);
+                // The square of its length where the surface is stretched, which is 2 V·M over the
+                // stretched view's length, and of that on the surface: their quotient is in the
+                // mirror and in D.
+                leave([across.mul_add(S::splat(cap.over_a2), up2), across + up2])
+            }
+            3 => leave([left[0] / left[1]]),
+            // The light, and what is under the root of the weight.
+            4 => {
+                let mirror = S::splat(cap.upward) * left[0];
+                let [x, y, up] = [out_x, out_y, out_z].map(|out| out.get::<S>(at));
+                out_x.put(at, mirror.mul_add(x, S::splat(-self.v[0])));
+                out_y.put(at, mirror.mul_add(y, S::splat(-self.v[1])));
+                let l = mirror.mul_add(up, S::splat(-self.v[2]));
+                out_z.put(at, l);
+                let square = (l * l).mul_add(S::splat(cap.square_slope), S::splat(cap.square));
+                leave([square, mirror * mirror])
+            }
+            5 => leave([left[0].sqrt(), S::splat(cap.density) / left[1]]),
+            6 => {
+                let [root, pdf, _] = left;
+                self.pdf.put(at, pdf);
+                leave([out_z.get::<S>(at).mul_add(S::splat(cap.length), root)])
+            }
+            7 => leave([out_z.get::<S>(at) / left[0]]),
+            _ => {
+                self.weight.put(at, out_z.get::<S>(at).masks(left[0]));
+                left
+            }
+        }
     }
 }
 
@@ -118,14 +131,15 @@ struct Cap {
     /// the sphere's lowest point.
     lowest: f32,
     under: f32,
-    /// The stretched view, of length 1, along the tangent and the bitangent.
+    /// `depth` times α².
+    squeezed_depth: f32,
+    /// The stretched view, of length 1, along the tangent and the bitangent, times α.
     view: [f32; 2],
-    /// α².
-    a2: f32,
-    /// The stretched view's length times α, and as it is.
-    aside: f32,
+    /// 1/α².
+    over_a2: f32,
+    /// The stretched view's length.
     upward: f32,
-    /// Density times the square of the quotient of lengths.
+    /// Density times the square of the quotient of lengths and of `upward`.
     density: f32,
     /// The weight is l / (`length` l + sqrt(`square` + `square_slope` l²)); `length` is infinite
     /// for a view below the horizon.
@@ -159,11 +173,11 @@ impl Cap {
             depth: (1.0 + low) as f32,
             lowest: ((1.0 - bound) * (z / length)) as f32,
             under: (1.0 - z / length) as f32,
-            view: [x, y].map(|across| (a * across / length) as f32),
-            a2: a2 as f32,
-            aside: (length * a) as f32,
+            squeezed_depth: ((1.0 + low) * a2) as f32,
+            view: [x, y].map(|across| (a2 * across / length) as f32),
+            over_a2: (1.0 / a2) as f32,
             upward: length as f32,
-            density: (share * FRAC_1_PI / a2) as f32,
+            density: (share * FRAC_1_PI / a2 * (length * length)) as f32,
             length: side as f32,
             square: (up * up * a2) as f32,
             square_slope: (up * up * rest) as f32,

@@ -1,6 +1,6 @@
 //! D V F cos θ from cosines and from vectors.
 
-use super::lanes::{At, Column, Kernel, Lanes, Out, Triples, lit, run};
+use super::lanes::{At, Column, Kernel, Lanes, Out, Triples, leave, lit, run};
 use super::{All, Input, Isa, Level, Source, dispatch_lanes, for_kinds};
 use glam::Vec3;
 use std::f64::consts::{FRAC_1_PI, PI};
@@ -47,7 +47,7 @@ fn specular_body<V: Lanes, T: Lanes>(input: &Cosines, out: &mut [f32]) {
     {
         macro_rules! run_known {
             ($mirror:expr) => {
-                run::<V, T>(
+                run::<V, T, _>(
                     n,
                     &KnownCosines {
                         light,
@@ -66,7 +66,7 @@ fn specular_body<V: Lanes, T: Lanes>(input: &Cosines, out: &mut [f32]) {
     }
     macro_rules! run_any {
         ($view:ident, $alpha:ident, $mirror:expr) => {
-            run::<V, T>(
+            run::<V, T, _>(
                 n,
                 &AnyCosines {
                     light,
@@ -110,15 +110,15 @@ struct Schlick<'a, F> {
 impl<F: Source> Mirror for Schlick<'_, F> {
     #[inline(always)]
     fn times<S: Lanes>(self, at: At, value: S) -> S {
-        value * schlick(self.f0.at(at), S::splat(1.0) - self.u.at::<S>(at))
+        value * schlick(self.f0.at(at), S::splat(1.0) - self.u.at::<S>(at), 1.0)
     }
 }
 
-/// f0 + (1 − f0) m⁵ of m = 1 − V·H.
+/// f0 + (1 − f0) scale m⁵, where m is 1 − V·H but for a factor.
 #[inline(always)]
-fn schlick<S: Lanes>(f0: S, m: S) -> S {
+fn schlick<S: Lanes>(f0: S, m: S, scale: f32) -> S {
     let m2 = m * m;
-    (m2 * m2 * m).mul_add(S::splat(1.0) - f0, f0)
+    (m2 * m2 * m).mul_add((S::splat(1.0) - f0) * S::splat(scale), f0)
 }
 
 /// D V cos θ_l with a single quotient: α²/(2π) l / (t² (l sqrt(…) + v sqrt(…))), with
@@ -132,44 +132,52 @@ struct AnyCosines<'a, V, A, M> {
     out: Out<'a>,
 }
 
-impl<S: Lanes, V: Source, A: Source, M: Mirror> Kernel<S> for AnyCosines<'_, V, A, M> {
-    /// α², N·L from 0 up, and the two roots.
-    type First = [S; 4];
-    type Second = S;
-    type Third = ();
+impl<S: Lanes, V: Source, A: Source, M: Mirror> Kernel<S, 4> for AnyCosines<'_, V, A, M> {
+    const STAGES: usize = 5;
 
     #[inline(always)]
-    fn first(&self, at: At) -> [S; 4] {
-        let (alpha, v) = (self.alpha.at::<S>(at), self.view.at::<S>(at));
-        let a2 = alpha * alpha;
-        let rest = S::splat(1.0) - a2;
-        // Below the horizon the numerator is 0.
-        let l = self.light.at::<S>(at).at_least(S::splat(0.0));
-        [a2, l, root(l, a2, rest), root(v, a2, rest)]
-    }
-
-    #[inline(always)]
-    fn second(&self, at: At, [a2, l, root_l, root_v]: [S; 4]) -> S {
-        let (h, v) = (self.half.at::<S>(at), self.view.at::<S>(at));
-        let t = h.one_minus_square().mul_add(S::splat(1.0) - a2, a2);
-        let w = l.mul_add(root_v, v * root_l);
-        a2 * lit(0.5 * FRAC_1_PI) * l / (t * t * w).at_least(S::splat(LEAST))
-    }
-
-    #[inline(always)]
-    fn third(&self, at: At, value: S) {
-        let value = self.view.at::<S>(at).masks(value);
-        self.out.put(at, self.mirror.times(at, value));
+    fn stage<const STAGE: usize>(&self, at: At, left: [S; 4]) -> [S; 4] {
+        match STAGE {
+            // What is under the roots, and what is not.
+            0 => {
+                let (alpha, v) = (self.alpha.at::<S>(at), self.view.at::<S>(at));
+                let a2 = alpha * alpha;
+                let rest = S::splat(1.0) - a2;
+                // Below the horizon the dividend is 0.
+                let l = self.light.at::<S>(at).at_least(S::splat(0.0));
+                let h = self.half.at::<S>(at);
+                let t = h.one_minus_square().mul_add(rest, a2);
+                let [of_l, of_v] = facing_squared(l, v, a2, rest);
+                let dividend = a2 * lit(0.5 * FRAC_1_PI) * v.masks(l);
+                [of_l, of_v, dividend, t * t]
+            }
+            1 => {
+                let [of_l, of_v, dividend, t2] = left;
+                [of_l.sqrt(), of_v.sqrt(), dividend, t2]
+            }
+            2 => {
+                let [l, v, dividend, t2] = left;
+                leave([dividend, (t2 * (l + v)).at_least(S::splat(LEAST))])
+            }
+            3 => leave([left[0] / left[1]]),
+            _ => {
+                self.out.put(at, self.mirror.times(at, left[0]));
+                left
+            }
+        }
     }
 }
 
 /// A divisor is at least this: where both cosines are denormal, 0 over 0 would be left.
 const LEAST: f32 = f32::MIN_POSITIVE;
 
-/// sqrt(α² + (1 − α²) x²) of a cosine.
+/// The squares of the two terms that V divides by, l sqrt(α² + (1 − α²) v²) and the same with the
+/// other cosine: the cosines under the roots, nothing but a sum is left to be done after them.
 #[inline(always)]
-fn root<S: Lanes>(x: S, a2: S, rest: S) -> S {
-    (x * x).mul_add(rest, a2).sqrt()
+fn facing_squared<S: Lanes>(l: S, v: S, a2: S, rest: S) -> [S; 2] {
+    let (l2, v2) = (l * l, v * v);
+    let both = l2 * rest * v2;
+    [l2.mul_add(a2, both), v2.mul_add(a2, both)]
 }
 
 /// What is known of an evaluation whose view and width are.
@@ -214,30 +222,33 @@ struct KnownCosines<'a, M> {
     out: Out<'a>,
 }
 
-impl<S: Lanes, M: Mirror> Kernel<S> for KnownCosines<'_, M> {
-    /// N·L from 0 up, and the root with it.
-    type First = [S; 2];
-    type Second = S;
-    type Third = ();
+impl<S: Lanes, M: Mirror> Kernel<S, 2> for KnownCosines<'_, M> {
+    const STAGES: usize = 5;
 
     #[inline(always)]
-    fn first(&self, at: At) -> [S; 2] {
-        let l = self.light.at::<S>(at).at_least(S::splat(0.0));
-        let (slope, square) = (self.known.square_slope, self.known.square);
-        [l, (l * l).mul_add(S::splat(slope), S::splat(square)).sqrt()]
-    }
-
-    #[inline(always)]
-    fn second(&self, at: At, [l, root]: [S; 2]) -> S {
-        let h = self.half.at::<S>(at);
-        let (slope, t) = (self.known.t_slope, self.known.t);
-        let t = h.one_minus_square().mul_add(S::splat(slope), S::splat(t));
-        l / (t * t * l.mul_add(S::splat(self.known.root), root))
-    }
-
-    #[inline(always)]
-    fn third(&self, at: At, value: S) {
-        self.out.put(at, self.mirror.times(at, value));
+    fn stage<const STAGE: usize>(&self, at: At, left: [S; 2]) -> [S; 2] {
+        let known = &self.known;
+        match STAGE {
+            // N·L from 0 up, and what is under the root.
+            0 => {
+                let l = self.light.at::<S>(at).at_least(S::splat(0.0));
+                let (slope, square) = (S::splat(known.square_slope), S::splat(known.square));
+                [l, (l * l).mul_add(slope, square)]
+            }
+            1 => [left[0], left[1].sqrt()],
+            // Dividend and divisor.
+            2 => {
+                let ([l, root], h) = (left, self.half.at::<S>(at));
+                let (slope, t) = (S::splat(known.t_slope), S::splat(known.t));
+                let t = h.one_minus_square().mul_add(slope, t);
+                [l, t * t * l.mul_add(S::splat(known.root), root)]
+            }
+            3 => leave([left[0] / left[1]]),
+            _ => {
+                self.out.put(at, self.mirror.times(at, left[0]));
+                left
+            }
+        }
     }
 }
 
@@ -276,9 +287,9 @@ fn vectors_body<V: Lanes, T: Lanes>(input: &Vectors, out: &mut [f32]) {
     macro_rules! run_vectors {
         ($view:expr) => {
             for_kinds!(n; input.alpha, alpha => match input.f0 {
-                None => run::<V, T>(n, &Directed { light, view: $view, alpha, f0: None::<All>, out }),
+                None => run::<V, T, _>(n, &Directed { light, view: $view, alpha, f0: None::<All>, out }),
                 Some(f0) => for_kinds!(n; f0, f0 => {
-                    run::<V, T>(n, &Directed { light, view: $view, alpha, f0: Some(f0), out })
+                    run::<V, T, _>(n, &Directed { light, view: $view, alpha, f0: Some(f0), out })
                 }),
             })
         };
@@ -348,78 +359,64 @@ struct Directed<'a, L, V, A, F> {
     out: Out<'a>,
 }
 
-/// The factor, 2⁶⁰, by which dividend and divisor are larger than they would be.
-const GROWN: f64 = (1u64 << 60) as f64;
+/// The factor, 2⁵⁰, by which dividend and divisor are larger than they would be: almost opposite
+/// directions have almost no half vector, and its fourth power would vanish.
+const GROWN: f64 = (1u64 << 50) as f64;
 
-/// What the roots of a pair of directions leave to the quotients.
-struct Rooted<S> {
-    /// Heights of light and view.
-    l: S,
-    v: S,
-    /// sqrt(α² + (1 − α²) z²) of both.
-    root_l: S,
-    root_v: S,
-    /// Numerator, and the square of what D divides by.
-    dividend: S,
-    t2: S,
-    /// |l − v|², and |l + v|.
-    difference2: S,
-    sum: S,
-}
-
-impl<S: Lanes, L: Directions, V: Directions, A: Source, F: Source> Kernel<S>
+impl<S: Lanes, L: Directions, V: Directions, A: Source, F: Source> Kernel<S, 5>
     for Directed<'_, L, V, A, F>
 {
-    type First = Rooted<S>;
-    /// The value with F = 1, and 1 − V·H.
-    type Second = [S; 2];
-    type Third = ();
+    const STAGES: usize = 5;
 
     #[inline(always)]
-    fn first(&self, at: At) -> Rooted<S> {
-        let (l, v) = (self.light.at::<S>(at), self.view.at::<S>(at));
-        let alpha = self.alpha.at::<S>(at);
-        let a2 = alpha * alpha;
-        let rest = S::splat(1.0) - a2;
-        let h = [l[0] + v[0], l[1] + v[1], l[2] + v[2]];
-        let (s, c) = (h[0].mul_add(h[0], h[1] * h[1]), h[2] * h[2]);
-        let (m, t) = (s + c, a2.mul_add(c, s));
-        let d = [l[0] - v[0], l[1] - v[1], l[2] - v[2]];
-        let difference2 = d[0].mul_add(d[0], d[1].mul_add(d[1], d[2] * d[2]));
-        let up = l[2].at_least(S::splat(0.0));
-        Rooted {
-            l: up,
-            v: v[2],
-            // Of directions of length 1.
-            root_l: root(up, a2, rest),
-            root_v: root(v[2], a2, rest),
-            dividend: m * m * (up * (a2 * lit(0.5 * FRAC_1_PI * GROWN))),
-            // Almost opposite directions have almost no half vector: its fourth power vanishes.
-            t2: t * (t * lit(GROWN)),
-            difference2,
-            sum: m.sqrt(),
+    fn stage<const STAGE: usize>(&self, at: At, left: [S; 5]) -> [S; 5] {
+        match STAGE {
+            // What is under the roots, and what is not.
+            0 => {
+                let (l, v) = (self.light.at::<S>(at), self.view.at::<S>(at));
+                let alpha = self.alpha.at::<S>(at);
+                let a2 = alpha * alpha;
+                let h = [l[0] + v[0], l[1] + v[1], l[2] + v[2]];
+                let (s, c) = (h[0].mul_add(h[0], h[1] * h[1]), h[2] * h[2]);
+                let d = [l[0] - v[0], l[1] - v[1], l[2] - v[2]];
+                let difference2 = d[0].mul_add(d[0], d[1].mul_add(d[1], d[2] * d[2]));
+                // It waits where the result goes.
+                self.out.put(at, difference2);
+                // Of directions of length 1.
+                let up = l[2].at_least(S::splat(0.0));
+                let grown = a2 * lit(GROWN * GROWN);
+                let rest = lit::<S>(GROWN * GROWN) - grown;
+                let [of_l, of_v] = facing_squared(up, v[2], grown, rest);
+                [of_l, of_v, s + c, a2.mul_add(c, s), v[2].masks(up)]
+            }
+            1 => {
+                let [of_l, of_v, m, t, l] = left;
+                let alpha = self.alpha.at::<S>(at);
+                let scale = alpha * alpha * lit(0.5 * FRAC_1_PI * GROWN);
+                let dividend = m * m * (l * scale);
+                [of_l.sqrt(), of_v.sqrt(), m.sqrt(), dividend, t]
+            }
+            2 => {
+                let [l, v, sum, dividend, t] = left;
+                let divisor = (t * (t * (l + v))).at_least(S::splat(LEAST));
+                leave([dividend, divisor, sum + S::splat(2.0)])
+            }
+            // The second is twice |l − v|²/(4 (1 + V·H)) with V·H = |l + v|/2.
+            3 => {
+                let [dividend, divisor, below, ..] = left;
+                let difference2 = self.out.get::<S>(at);
+                leave([dividend / divisor, difference2 / below])
+            }
+            _ => {
+                let [value, twice_rest, ..] = left;
+                let value = match self.f0 {
+                    None => value,
+                    Some(f0) => value * schlick(f0.at(at), twice_rest, 1.0 / 32.0),
+                };
+                self.out.put(at, value);
+                left
+            }
         }
-    }
-
-    #[inline(always)]
-    fn second(&self, _: At, first: Rooted<S>) -> [S; 2] {
-        let w = first.l.mul_add(first.root_v, first.v * first.root_l);
-        // |l − v|²/(4 (1 + V·H)) with V·H = |l + v|/2.
-        let below = S::splat(2.0).mul_add(first.sum, S::splat(4.0));
-        let divisor = (first.t2 * w).at_least(S::splat(LEAST));
-        [
-            first.v.masks(first.dividend / divisor),
-            first.difference2 / below,
-        ]
-    }
-
-    #[inline(always)]
-    fn third(&self, at: At, [value, m]: [S; 2]) {
-        let value = match self.f0 {
-            None => value,
-            Some(f0) => value * schlick(f0.at(at), m),
-        };
-        self.out.put(at, value);
     }
 }
 
@@ -447,7 +444,7 @@ fn vec3_body<V: Lanes, T: Lanes>(
     let (light, view) = (Triples::new(l, n), Triples::new(v, n));
     let (alpha, out) = (All(alpha), Out::new(out, n));
     match f0.map(All) {
-        None => run::<V, T>(
+        None => run::<V, T, _>(
             n,
             &Directed {
                 light,
@@ -457,7 +454,7 @@ fn vec3_body<V: Lanes, T: Lanes>(
                 out,
             },
         ),
-        f0 => run::<V, T>(
+        f0 => run::<V, T, _>(
             n,
             &Directed {
                 light,

@@ -1,6 +1,6 @@
 //! What the machine can do at most: loops of nothing but quotients, square roots or products.
 
-use super::lanes::{At, Column, Kernel, Lanes, Out, run};
+use super::lanes::{At, Column, Kernel, Lanes, Out, leave, run};
 use super::{Isa, Level, dispatch_lanes};
 
 /// Quotients, to measure how fast the machine divides.
@@ -8,72 +8,9 @@ pub fn divide(isa: Isa, a: &[f32], b: &[f32], out: &mut [f32]) {
     dispatch_lanes!(isa, divide_body(a: &[f32], b: &[f32], out: &mut [f32]))
 }
 
-#[inline(always)]
-fn divide_body<V: Lanes, T: Lanes>(a: &[f32], b: &[f32], out: &mut [f32]) {
-    let n = a.len().min(b.len()).min(out.len());
-    let (a, b, out) = (Column::new(a, n), Column::new(b, n), Out::new(out, n));
-    run::<V, T>(n, &Quotients { a, b, out });
-}
-
-struct Quotients<'a> {
-    a: Column<'a>,
-    b: Column<'a>,
-    out: Out<'a>,
-}
-
-impl<S: Lanes> Kernel<S> for Quotients<'_> {
-    type First = S;
-    type Second = S;
-    type Third = ();
-
-    #[inline(always)]
-    fn first(&self, at: At) -> S {
-        self.a.at::<S>(at) / self.b.at(at)
-    }
-    #[inline(always)]
-    fn second(&self, _: At, value: S) -> S {
-        value
-    }
-    #[inline(always)]
-    fn third(&self, at: At, value: S) {
-        self.out.put(at, value);
-    }
-}
-
 /// Square roots, to measure how fast the machine takes them.
 pub fn square_root(isa: Isa, a: &[f32], out: &mut [f32]) {
     dispatch_lanes!(isa, square_root_body(a: &[f32], out: &mut [f32]))
-}
-
-#[inline(always)]
-fn square_root_body<V: Lanes, T: Lanes>(a: &[f32], out: &mut [f32]) {
-    let n = a.len().min(out.len());
-    let (a, out) = (Column::new(a, n), Out::new(out, n));
-    run::<V, T>(n, &Roots { a, out });
-}
-
-struct Roots<'a> {
-    a: Column<'a>,
-    out: Out<'a>,
-}
-
-impl<S: Lanes> Kernel<S> for Roots<'_> {
-    type First = S;
-    type Second = S;
-    type Third = ();
-
-    #[inline(always)]
-    fn first(&self, at: At) -> S {
-        self.a.at::<S>(at).sqrt()
-    }
-    #[inline(always)]
-    fn second(&self, _: At, value: S) -> S {
-        value
-    }
-    #[inline(always)]
-    fn third(&self, at: At, value: S) {
-        self.out.put(at, value);
-    }
 }
 
 /// How many products [`multiply`] makes of each number.
@@ -86,25 +23,70 @@ pub fn multiply(isa: Isa, a: &[f32], out: &mut [f32]) {
 }
 
 #[inline(always)]
+fn divide_body<V: Lanes, T: Lanes>(a: &[f32], b: &[f32], out: &mut [f32]) {
+    measured::<V, T>(a, b, out, Quotient);
+}
+
+#[inline(always)]
+fn square_root_body<V: Lanes, T: Lanes>(a: &[f32], out: &mut [f32]) {
+    measured::<V, T>(a, a, out, Root);
+}
+
+#[inline(always)]
 fn multiply_body<V: Lanes, T: Lanes>(a: &[f32], out: &mut [f32]) {
-    let n = a.len().min(out.len());
-    let (a, out) = (Column::new(a, n), Out::new(out, n));
-    run::<V, T>(n, &Products { a, out });
+    measured::<V, T>(a, a, out, Products);
 }
 
-struct Products<'a> {
+#[inline(always)]
+fn measured<V: Lanes, T: Lanes>(a: &[f32], b: &[f32], out: &mut [f32], operation: impl Operation) {
+    let n = a.len().min(b.len()).min(out.len());
+    let (a, b, out) = (Column::new(a, n), Column::new(b, n), Out::new(out, n));
+    run::<V, T, _>(
+        n,
+        &Measured {
+            a,
+            b,
+            out,
+            operation,
+        },
+    );
+}
+
+struct Measured<'a, O> {
     a: Column<'a>,
+    b: Column<'a>,
     out: Out<'a>,
+    operation: O,
 }
 
-impl<S: Lanes> Kernel<S> for Products<'_> {
-    type First = [S; 8];
-    type Second = S;
-    type Third = ();
+/// What is measured, of one or two numbers.
+trait Operation {
+    fn of<S: Lanes>(&self, a: S, b: S) -> S;
+}
 
+struct Quotient;
+
+impl Operation for Quotient {
     #[inline(always)]
-    fn first(&self, at: At) -> [S; 8] {
-        let x = self.a.at::<S>(at);
+    fn of<S: Lanes>(&self, a: S, b: S) -> S {
+        a / b
+    }
+}
+
+struct Root;
+
+impl Operation for Root {
+    #[inline(always)]
+    fn of<S: Lanes>(&self, a: S, _: S) -> S {
+        a.sqrt()
+    }
+}
+
+struct Products;
+
+impl Operation for Products {
+    #[inline(always)]
+    fn of<S: Lanes>(&self, x: S, _: S) -> S {
         let mut chains = [S::splat(0.5); 8];
         for (i, chain) in chains.iter_mut().enumerate() {
             // Different, or they would be one.
@@ -115,14 +97,20 @@ impl<S: Lanes> Kernel<S> for Products<'_> {
                 *chain = chain.mul_add(x, x);
             }
         }
-        chains
-    }
-    #[inline(always)]
-    fn second(&self, _: At, [a, b, c, d, e, f, g, h]: [S; 8]) -> S {
+        let [a, b, c, d, e, f, g, h] = chains;
         ((a + b) + (c + d)) + ((e + f) + (g + h))
     }
+}
+
+impl<S: Lanes, O: Operation> Kernel<S, 1> for Measured<'_, O> {
+    const STAGES: usize = 2;
+
     #[inline(always)]
-    fn third(&self, at: At, value: S) {
-        self.out.put(at, value);
+    fn stage<const STAGE: usize>(&self, at: At, left: [S; 1]) -> [S; 1] {
+        if STAGE == 0 {
+            return leave([self.operation.of(self.a.at::<S>(at), self.b.at(at))]);
+        }
+        self.out.put(at, left[0]);
+        left
     }
 }
