@@ -77,6 +77,16 @@ impl Axis {
         Some(Self { low, high, log })
     }
 
+    /// The same axis with other ends, where they are given; `None` where nothing is between them.
+    pub fn with_ends(self, (low, high): (Option<f64>, Option<f64>)) -> Option<Self> {
+        if low.is_none() && high.is_none() {
+            return Some(self);
+        }
+        let range = (low.unwrap_or(self.low), high.unwrap_or(self.high));
+        let fits = range.0 < range.1;
+        fits.then(|| Self::fit([].into_iter(), self.log, Some(range), false))?
+    }
+
     /// Where `value` stands: 0 at the low end, 1 at the high end; NaN where it cannot stand.
     pub fn share(&self, value: f64) -> f64 {
         if self.log {

@@ -28,6 +28,8 @@ pub struct PlotSpec {
     pub x_log: bool,
     /// Logarithmic vertical axis; values that are not positive are left out.
     pub y_log: bool,
+    /// Lower and upper end of the vertical axis; from the values where left out.
+    pub y_ends: (Option<f64>, Option<f64>),
     /// Each curve's name and points; a value that is not finite breaks the curve.
     pub series: Vec<(String, Vec<(f64, f64)>)>,
     /// Points worth a label: the label, x, y.
@@ -162,6 +164,7 @@ impl Chart<'_> {
             self.y_range,
             true,
         );
+        let y_axis = y_axis.and_then(|axis| axis.with_ends(self.spec.y_ends));
         let (Some(x_axis), Some(y_axis)) = (x_axis, y_axis) else {
             return Err(Error::Plot("no value in the plot can be drawn".to_owned()));
         };
@@ -261,10 +264,15 @@ impl Chart<'_> {
         )
     }
 
-    /// The colour of a curve.
+    /// The colour of a curve. One that is called red, green or blue is so.
     pub(crate) fn colour(&self, index: usize) -> Rgb {
         let (first, more) = (&self.theme.series, &self.theme.more);
-        let index = index % (first.len() + more.len());
+        let index = match self.spec.series.get(index).map(|(name, _)| name.as_str()) {
+            Some("blue") => 0,
+            Some("red") => 1,
+            Some("green") => 2,
+            _ => index % (first.len() + more.len()),
+        };
         let colours = first.iter().chain(more);
         colours.copied().nth(index).unwrap_or(self.theme.ink)
     }

@@ -12,6 +12,15 @@ pub(crate) fn ratio_one(shaded: &Shaded, size: usize, first: usize) -> Vec<[(f32
     };
     let mut segments = Vec::new();
     let rows = shaded.lit.len() / size;
+    // Where the line runs along an edge of the light, bits of it would look out between edge
+    // pixels: it ends a pixel before.
+    let inside = |column: usize, row: usize| {
+        let near = |at: usize, most: usize| at.saturating_sub(1)..(at + 3).min(most);
+        near(row, rows).all(|row| {
+            let pixels = near(column, size).map(|column| row * size + column);
+            pixels.into_iter().all(|index| shaded.lit[index] > 0.99)
+        })
+    };
     for row in 0..rows.saturating_sub(1) {
         let [above, below] = [row, row + 1].map(|row| &shaded.stops[row * size..(row + 1) * size]);
         for (column, (above, below)) in above.windows(2).zip(below.windows(2)).enumerate() {
@@ -26,6 +35,10 @@ pub(crate) fn ratio_one(shaded: &Shaded, size: usize, first: usize) -> Vec<[(f32
             // Rounding alone is not a crossing.
             let clear = values.iter().any(|v| v.abs() > 1e-6);
             if !clear || values.iter().any(|v| !v.is_finite()) {
+                continue;
+            }
+            let crosses = values.iter().any(|v| (*v < 0.0) != (values[0] < 0.0));
+            if !crosses || !inside(column, row) {
                 continue;
             }
             let mut ends: Vec<(f32, f32)> = Vec::new();

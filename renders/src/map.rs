@@ -187,8 +187,9 @@ pub fn map_png(spec: &MapSpec, width: u32, height: u32) -> Result<Vec<u8>, Error
             .fold(0.0, f32::max)
     };
     let left = 3.3 * em + widest(&y_ticks);
-    let right = w - 6.2 * em - widest(&value_ticks);
-    let (top, bottom) = (3.4 * em, h - 3.8 * em);
+    let right = (w - 6.2 * em - widest(&value_ticks)).round();
+    let left = left.round();
+    let (top, bottom) = ((3.4 * em).round(), (h - 3.8 * em).round());
     if right - left < 6.0 * em || bottom - top < 6.0 * em {
         return Err(Error::Plot(format!(
             "{width} by {height} pixels leave no room for the map"

@@ -1,6 +1,6 @@
 //! Plots keep what they are given: labels, curves, marks.
 
-use renders::{Error, MapSpec, PlotSpec, Scale, map_png, plot_png, plot_svg};
+use renders::{Error, MapSpec, PlotSpec, Scale, map_pixels, map_png, plot_png, plot_svg};
 
 fn spec() -> PlotSpec {
     PlotSpec {
@@ -60,6 +60,21 @@ fn a_plot_without_values_or_room_is_an_error() {
     assert!(matches!(plot_svg(&spec(), 0, 0), Err(Error::Plot(_))));
 }
 
+/// The vertical axis ends where it is told to; nothing lies between ends that cross.
+#[test]
+fn ends_that_are_given_are_kept() {
+    let ends = |y_ends| {
+        let spec = PlotSpec { y_ends, ..spec() };
+        plot_svg(&spec, 800, 500)
+    };
+    let label = |svg: &str, label: &str| svg.contains(&format!("\n{label}\n"));
+    let free = ends((None, None)).expect("a plot");
+    assert!(!label(&free, "1000") && label(&free, "10"), "{free}");
+    let given = ends((Some(0.1), Some(1000.0))).expect("a plot");
+    assert!(label(&given, "1000") && label(&given, "0.1"), "{given}");
+    assert!(matches!(ends((Some(10.0), Some(1.0))), Err(Error::Plot(_))));
+}
+
 fn map(scale: Scale, values: Vec<f64>) -> MapSpec {
     MapSpec {
         title: "a map".to_owned(),
@@ -72,6 +87,16 @@ fn map(scale: Scale, values: Vec<f64>) -> MapSpec {
         values,
         scale,
     }
+}
+
+#[test]
+fn the_pixels_of_a_map_begin_at_its_top() {
+    let values = vec![0.0, f64::NAN, 1.0, 1.0];
+    let pixels = map_pixels(&map(Scale::Linear(0.0, 1.0), values), 2, 2).expect("a map");
+    let pixel = |index: usize| &pixels[4 * index..4 * index + 4];
+    assert_eq!(pixel(0), pixel(1), "the upper row is bright");
+    assert!(pixel(0)[1] > 200 && pixel(2)[1] < 50, "{pixels:?}");
+    assert_eq!(pixel(3), [0; 4], "no value");
 }
 
 #[test]

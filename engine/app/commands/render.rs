@@ -346,6 +346,7 @@ fn draw_plot(
             y_label: view.y_label,
             x_log: view.x_log,
             y_log: view.y_log,
+            y_ends: view.y_given,
             series: view.series,
             marks: view.marks,
             ..PlotSpec::default()

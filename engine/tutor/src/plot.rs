@@ -7,6 +7,10 @@ use crate::prose::{Block, PlotView, plain};
 
 /// Points on a curve.
 const POINTS: usize = 161;
+/// How far a curve may be from a straight line between two of them, as a share of its height; else
+/// there are more points, at most so many times halfway between.
+const BENT: f64 = 1e-3;
+const HALVINGS: u32 = 5;
 
 impl Lesson {
     /// The plot of that id.
@@ -57,6 +61,7 @@ impl Lesson {
             y_log: plot.y.log,
             x_range: (plot.x.from, plot.x.to),
             y_range,
+            y_given: (plot.y.from, plot.y.to),
             series,
             marks,
         }))
@@ -84,14 +89,41 @@ impl Lesson {
         let Ok((program, mut inputs)) = compile_curve(self, plot, expr, own) else {
             return Vec::new();
         };
-        let mut points = Vec::with_capacity(POINTS);
-        for index in 0..POINTS {
-            let x = at(&plot.x, index as f64 / (POINTS - 1) as f64);
+        let mut value = |share: f64| {
+            let x = at(&plot.x, share);
             if let Some(last) = inputs.last_mut() {
                 *last = x;
             }
-            points.push((x, program.eval(&inputs)));
+            let y = program.eval(&inputs);
+            let height = if plot.y.log { y.ln() } else { y };
+            Sampled {
+                share,
+                point: (x, y),
+                height,
+            }
+        };
+        let even: Vec<Sampled> = (0..POINTS)
+            .map(|index| value(index as f64 / (POINTS - 1) as f64))
+            .collect();
+        let heights = even.iter().map(|sampled| sampled.height);
+        let (low, high) = heights
+            .filter(|height| height.is_finite())
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| {
+                (low.min(y), high.max(y))
+            });
+        let allowed = BENT * (high - low);
+        let mut points = Vec::with_capacity(2 * POINTS);
+        for pair in even.windows(2) {
+            points.push(pair[0].point);
+            between(
+                [&pair[0], &pair[1]],
+                allowed,
+                HALVINGS,
+                &mut value,
+                &mut points,
+            );
         }
+        points.extend(even.last().map(|last| last.point));
         points
     }
 
@@ -122,6 +154,37 @@ impl Lesson {
         let maps = maps.map(|frame| Block::Map(Box::new(frame)));
         tables.chain(plots).chain(maps).chain(pictures).collect()
     }
+}
+
+/// A point of a curve.
+struct Sampled {
+    /// How far along the axis.
+    share: f64,
+    point: (f64, f64),
+    /// Its value as it is drawn.
+    height: f64,
+}
+
+/// Adds points between two of a curve where it bends too much to be drawn as a straight line.
+fn between(
+    [from, to]: [&Sampled; 2],
+    allowed: f64,
+    halvings: u32,
+    value: &mut dyn FnMut(f64) -> Sampled,
+    points: &mut Vec<(f64, f64)>,
+) {
+    if halvings == 0 {
+        return;
+    }
+    let middle = value(f64::midpoint(from.share, to.share));
+    let bend = (middle.height - f64::midpoint(from.height, to.height)).abs();
+    // Also where a value is missing: there is nothing to draw.
+    if bend.is_nan() || bend <= allowed {
+        return;
+    }
+    between([from, &middle], allowed, halvings - 1, value, points);
+    points.push(middle.point);
+    between([&middle, to], allowed, halvings - 1, value, points);
 }
 
 /// A point of the axis, from 0 at its left end to 1 at its right.

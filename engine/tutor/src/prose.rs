@@ -104,6 +104,8 @@ pub struct PlotView {
     pub x_range: (f64, f64),
     /// Ends of the vertical axis.
     pub y_range: (f64, f64),
+    /// Those of them that the author chose.
+    pub y_given: (Option<f64>, Option<f64>),
     /// Label and points of every curve.
     pub series: Vec<(String, Vec<(f64, f64)>)>,
     /// Points with a name.

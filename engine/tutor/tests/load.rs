@@ -539,6 +539,33 @@ series = [{ label = "itself", is = "n_dot_v" }]
     );
 }
 
+/// Between its points a curve is drawn straight: nowhere may that be seen.
+#[test]
+fn a_curve_has_points_where_it_bends() {
+    let sharp = "0.001 / (0.001 + (n_dot_v - 0.5)^2)";
+    let text = edited("log = true, from = 0.1, to = 100.0", "log = false");
+    let text = text.replacen(
+        "1 / (4 * n_dot_l * n_dot_v)\" },",
+        &format!("{sharp}\" }},"),
+        1,
+    );
+    let lesson = load("lesson.toml", &text).0.expect("a lesson");
+    let Some(tutor::prose::Block::Plot(plot)) = lesson.plot("ratio") else {
+        panic!("no plot");
+    };
+    let points = &plot.series[0].1;
+    assert!(points.windows(2).all(|pair| pair[0].0 < pair[1].0));
+    for pair in points.windows(2) {
+        let [(x0, y0), (x1, y1)] = [pair[0], pair[1]];
+        let middle = f64::midpoint(x0, x1);
+        let truth = 0.001 / (0.001 + (middle - 0.5) * (middle - 0.5));
+        assert!(
+            (truth - f64::midpoint(y0, y1)).abs() < 1.5e-3,
+            "at {middle}"
+        );
+    }
+}
+
 #[test]
 fn a_map_has_its_values_from_the_bottom() {
     let lesson = load("complete.toml", COMPLETE).0.expect("a lesson");

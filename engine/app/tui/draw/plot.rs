@@ -3,7 +3,7 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::style::Color;
+use ratatui::style::{Color, Style};
 use ratatui::symbols::Marker;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget as _;
@@ -68,7 +68,7 @@ pub fn draw(plot: &PlotView, palette: Palette, area: Rect, buffer: &mut Buffer) 
 
     for (index, (_, points)) in plot.series.iter().enumerate() {
         let marker = MARKERS[index % MARKERS.len()].0;
-        let colour = palette.curve(index).fg.unwrap_or(Color::Reset);
+        let colour = style_of(plot, index, palette).fg.unwrap_or(Color::Reset);
         curve(points, marker, colour, (&x, &y), chart, buffer);
     }
     for (_, at, value) in &plot.marks {
@@ -80,6 +80,14 @@ pub fn draw(plot: &PlotView, palette: Palette, area: Rect, buffer: &mut Buffer) 
     }
     for (index, line) in legend.into_iter().enumerate() {
         line.render(row(chart.bottom() + 3 + index as u16), buffer);
+    }
+}
+
+/// The style of a curve. One that is called red, green or blue is so.
+fn style_of(plot: &PlotView, index: usize, palette: Palette) -> Style {
+    match plot.series.get(index) {
+        Some((name, _)) => palette.named_curve(name, index),
+        None => palette.curve(index),
     }
 }
 
@@ -147,7 +155,7 @@ fn legend(plot: &PlotView, width: usize, palette: Option<Palette>) -> Vec<Line<'
         (
             sign,
             label.clone(),
-            palette.map(|palette| palette.curve(index)),
+            palette.map(|palette| style_of(plot, index, palette)),
         )
     });
     let marks = plot.marks.iter().map(|(label, x, y)| {

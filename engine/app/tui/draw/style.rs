@@ -96,6 +96,16 @@ impl Palette {
         self.fg(Color::Cyan).add_modifier(Modifier::BOLD)
     }
 
+    /// A curve that may be called by its colour.
+    pub fn named_curve(self, name: &str, index: usize) -> Style {
+        match name {
+            "red" => self.fg(Color::LightRed),
+            "green" => self.fg(Color::Green),
+            "blue" => self.fg(Color::LightBlue),
+            _ => self.curve(index),
+        }
+    }
+
     pub fn curve(self, index: usize) -> Style {
         self.fg(CURVES[index % CURVES.len()])
     }
