@@ -395,6 +395,7 @@ impl Single for f32 {
 /// Single precision where the machine multiplies and adds in one instruction.
 ///
 /// Only for functions compiled with that feature: elsewhere each `mul_add` is a library call.
+#[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))]
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
 pub(crate) struct Fused(pub(crate) f32);
 

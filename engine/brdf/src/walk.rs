@@ -14,7 +14,7 @@
 
 use crate::batch::{Isa, Level, dispatch, ln_unit};
 use crate::ggx::Ggx;
-use crate::real::{Fused, Real, Single, lit};
+use crate::real::{Real, Single, lit};
 use crate::sampling::Sampler;
 use crate::vector::{Vector, add, dot, normalize, reflect, scale};
 use glam::Vec3;

@@ -3,7 +3,7 @@
 use super::lanes::{At, Column, Kernel, Lanes, Out, leave, run};
 use super::{Isa, Level, dispatch, dispatch_lanes};
 use crate::fresnel::f_conductor;
-use crate::real::{Fused, Real, Single};
+use crate::real::{Real, Single};
 use std::f64::consts::PI;
 
 /// One colour of a conductor, prepared: its reflectance as one quotient.

@@ -157,12 +157,12 @@ macro_rules! dispatch {
         #[cfg(target_arch = "x86_64")]
         #[target_feature(enable = "avx2,fma")]
         fn avx2($($arg: $type),*) {
-            $body::<Fused>($($arg),*)
+            $body::<crate::real::Fused>($($arg),*)
         }
         #[cfg(target_arch = "x86_64")]
         #[target_feature(enable = "avx2,fma,avx512f,avx512vl,avx512dq,avx512bw")]
         fn avx512($($arg: $type),*) {
-            $body::<Fused>($($arg),*)
+            $body::<crate::real::Fused>($($arg),*)
         }
         match $isa.0 {
             Level::Baseline => $body::<f32>($($arg),*),
