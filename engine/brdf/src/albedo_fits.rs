@@ -8,10 +8,19 @@ pub(crate) const TERMS: &[Term] = &[ALBEDO_GGX_KARIS, ALBEDO_GGX_MATERIALX];
 
 /// Directional albedo of GGX with Schlick's Fresnel, Karis' fit for mobile shaders.
 ///
-/// Karis 2014, "Physically Based Shading on Mobile", after Lazarov 2013. Fitted to a separable
-/// G₂ (Schlick's, k = α/2), so that grazing views are too dark. With `f0 = 1` it is
-/// 1 − 0.55 roughness from every view. Arguments are brought into [0, 1]; the result may
-/// leave it by 0.02.
+/// ```text
+/// E ≈ f0 (1.04 − 0.572 r − 1.04 a) + 1.04 a + 0.022 r − 0.04
+/// a = min((1 − r)², 2^(−9.28 N·V)) (1 − r) + 0.0425 − 0.0275 r,    r = roughness
+/// ```
+///
+/// - *Source*: Karis 2014, "Physically Based Shading on Mobile", after Lazarov 2013.
+/// - *Arguments*: `f0` the reflectance at normal incidence in [0, 1]; `n_dot_v` N·V in [0, 1];
+///   `roughness` in [0, 1].
+/// - *Value*: 0 to 1, left by up to 0.02.
+/// - *Outside*: arguments are brought into [0, 1].
+/// - *Error*: 3.1 ulp of the fit, on the scale of 1; the fit is off by up to 0.47 of the value.
+/// - *Right and wrong*: fitted to a separable G₂ (Schlick's, k = α/2), so that grazing views are
+///   too dark. With f0 = 1 it is 1 − 0.55 r from every view.
 #[inline(always)]
 pub fn albedo_ggx_karis<R: Real>(f0: R, n_dot_v: R, roughness: R) -> R {
     let (f0, mu, r) = (
@@ -41,9 +50,17 @@ const ALBEDO_GGX_KARIS: Term = entry!(
 
 /// Directional albedo of GGX with Schlick's Fresnel, MaterialX' rational fit.
 ///
-/// MaterialX 1.38, `mx_ggx_dir_albedo_analytic`: a quotient of quadratics in N·V and α for the
-/// scale of `f0` and another for the rest, fitted to Monte Carlo data. Arguments are brought
-/// into [0, 1], and so are the two quotients.
+/// ```text
+/// E ≈ f0 clamp(P₁/Q₁) + clamp(P₂/Q₂),    quotients of polynomials of degree 2 in N·V and in α
+/// ```
+///
+/// - *Source*: MaterialX 1.38, `mx_ggx_dir_albedo_analytic`.
+/// - *Arguments*: `f0` the reflectance at normal incidence in [0, 1]; `n_dot_v` N·V in [0, 1];
+///   `alpha` α = roughness² in [0, 1].
+/// - *Value*: 0 to 1.
+/// - *Outside*: arguments are brought into [0, 1], and so are the two quotients.
+/// - *Error*: 20.6 ulp of the fit in f32 on the scale of 1, 14.1 in f64; the fit, made to Monte
+///   Carlo data, is within 0.043 of the value at f0 = 1.
 #[inline(always)]
 pub fn albedo_ggx_materialx<R: Real>(f0: R, n_dot_v: R, alpha: R) -> R {
     let (f0, x, y) = (f0.clamp_unit(), n_dot_v.clamp_unit(), alpha.clamp_unit());

@@ -1,7 +1,17 @@
 //! Energy that single scattering loses, and how it is put back.
 //!
-//! A microfacet BRDF with F = 1 returns E(μ) < 1: what meets the surface a second time is
-//! lost. Both remedies need E, by quadrature ([`albedo_ggx`]) or from a table of it.
+//! | symbol | item | source |
+//! |---|---|---|
+//! | E_avg | [`albedo_average_ggx`] | Kulla and Conty 2017 |
+//! | f_ms | [`f_multi_kulla_conty`] | Kulla and Conty 2017 |
+//! | F_ms | [`multi_scattering_tint`] | Kulla and Conty 2017; Jakob et al. 2014 |
+//! | 1 + f0 (1 − E)/E | [`compensation_turquin`] | Turquin 2019, eq. 16 |
+//! | E as a table | [`AlbedoTable`] | |
+//!
+//! A microfacet BRDF with F = 1 returns E(μ) < 1: what meets the surface a second time is lost, seen
+//! straight on 30 % at α = 0.49 and 69 % at α = 1. Both remedies need E, by quadrature ([`albedo_ggx`]) or from a table of it.
+//! Kulla and Conty's lobe is reciprocal and exact; Turquin's factor is cheap, exact for f0 = 1, and not
+//! reciprocal.
 
 use crate::integral::albedo_ggx;
 use crate::real::{Real, lit, zero_unless_nan};
@@ -14,10 +24,17 @@ pub(crate) const TERMS: &[Term] = &[
     COMPENSATION_TURQUIN,
 ];
 
-/// Average albedo of GGX with F = 1: 2 ∫ E(μ) μ dμ, height-correlated.
+/// Average albedo of GGX with F = 1, height-correlated.
 ///
-/// Kulla and Conty 2017. 1 for a mirror, (4 − 4 ln 2)/3 at α = 1. By quadrature of
-/// [`albedo_ggx`] in μ = y³, which spreads the grazing views.
+/// ```text
+/// E_avg = 2 ∫ E(μ) μ dμ,    (4 − 4 ln 2)/3 at α = 1
+/// ```
+///
+/// - *Source*: Kulla and Conty 2017; by quadrature of [`albedo_ggx`] in μ = y³, which spreads the
+///   grazing views.
+/// - *Arguments*: `alpha` α = roughness² in [0, 1].
+/// - *Value*: 0.409 (α = 1) to 1 (a mirror).
+/// - *Outside*: the sign of α is ignored.
 pub fn albedo_average_ggx<R: Real>(alpha: R) -> R {
     if alpha.is_nan() {
         return alpha;
@@ -39,10 +56,26 @@ const ALBEDO_AVERAGE_GGX: Term = entry!(
     wgsl: None
 );
 
-/// The multiple-scattering lobe of Kulla and Conty: (1 − E(l))(1 − E(v))/(π (1 − E_avg)), in 1/sr.
+/// The multiple-scattering lobe of Kulla and Conty.
 ///
-/// Kulla and Conty 2017. Added to the BRDF with F = 1 it restores what is lost, exactly.
-/// Where nothing is lost (E_avg = 1) it is 0.
+/// ```text
+/// f_ms = (1 − E(l))(1 − E(v))/(π (1 − E_avg))
+/// ```
+///
+/// - *Source*: Kulla and Conty 2017.
+/// - *Arguments*: `albedo_l` E(l); `albedo_v` E(v); `albedo_average` E_avg, all in [0, 1].
+/// - *Value*: 1/sr. Added to the BRDF with F = 1 it restores what is lost, exactly. Reciprocal.
+/// - *Outside*: albedos are brought into [0, 1]; where nothing is lost (E_avg = 1) it is 0.
+/// - *Error*: 4.7 ulp in f32, 4.6 in f64.
+///
+/// ```
+/// use brdf::{albedo_average_ggx, albedo_ggx, f_multi_kulla_conty};
+/// let alpha = 0.5f64;
+/// let (l, v) = (albedo_ggx(0.8, alpha), albedo_ggx(0.6, alpha));
+/// let added = f_multi_kulla_conty(l, v, albedo_average_ggx(alpha)); // in 1/sr
+/// let average = albedo_average_ggx(alpha);
+/// assert!((added * std::f64::consts::PI * (1.0 - average) - (1.0 - l) * (1.0 - v)).abs() < 1e-15);
+/// ```
 pub fn f_multi_kulla_conty<R: Real>(albedo_l: R, albedo_v: R, albedo_average: R) -> R {
     let one = lit::<R>(1.0);
     let lost = |e: R| one - e.clamp_unit();
@@ -82,10 +115,19 @@ const F_MULTI_KULLA_CONTY: Term = entry!(
 }")
 );
 
-/// The colour of that lobe: F_avg² E_avg/(1 − F_avg (1 − E_avg)).
+/// The colour of Kulla and Conty's lobe: light that leaves after two and more bounces.
 ///
-/// Kulla and Conty 2017, with the power of F_avg as Hill corrected it (Jakob et al. 2014): the
-/// light that leaves after two and more bounces.
+/// ```text
+/// F_ms = F_avg² E_avg/(1 − F_avg (1 − E_avg))
+/// ```
+///
+/// - *Source*: Kulla and Conty 2017, with the power of F_avg as Hill corrected it (Jakob et al.
+///   2014).
+/// - *Arguments*: `f_average` F_avg in [0, 1]; `albedo_average` E_avg, all in [0, 1].
+/// - *Value*: 0 to 1; multiply [`f_multi_kulla_conty`] by it, with F_avg of
+///   [`crate::f_schlick_average`].
+/// - *Outside*: both are brought into [0, 1].
+/// - *Error*: 3.5 ulp in f32, 3.2 in f64.
 pub fn multi_scattering_tint<R: Real>(f_average: R, albedo_average: R) -> R {
     let one = lit::<R>(1.0);
     let (f, e) = (f_average.clamp_unit(), albedo_average.clamp_unit());
@@ -96,10 +138,18 @@ pub fn multi_scattering_tint<R: Real>(f_average: R, albedo_average: R) -> R {
     f * f * e / ((one - f) + f * e)
 }
 
-/// Turquin's factor on the whole single-scattering lobe: 1 + f0 (1 − E(v))/E(v).
+/// Turquin's factor on the whole single-scattering lobe.
 ///
-/// Turquin 2019, eq. 16. Cheap and not reciprocal: only the view enters. With f0 = 1 the
-/// albedo becomes exactly 1. E(v) is expected to be more than 0.
+/// ```text
+/// c = 1 + f0 (1 − E(v))/E(v)
+/// ```
+///
+/// - *Source*: Turquin 2019, eq. 16.
+/// - *Arguments*: `f0` the reflectance at normal incidence in [0, 1]; `albedo_v` E(v).
+/// - *Value*: 1 to 1/E. With f0 = 1 the albedo becomes exactly 1.
+/// - *Outside*: f0 is brought into [0, 1]; E(v) is expected to be more than 0.
+/// - *Error*: 1.6 ulp.
+/// - *Right and wrong*: cheap and not reciprocal: only the view enters.
 pub fn compensation_turquin<R: Real>(f0: R, albedo_v: R) -> R {
     let one = lit::<R>(1.0);
     let e = albedo_v.at_least(lit(R::TINY)).at_most(one);

@@ -1,7 +1,20 @@
-//! Fresnel: how much a mirror reflects.
+//! F: how much a mirror reflects.
 //!
-//! `v_dot_h` is the cosine between the direction and the facet it is mirrored in; N·V where
-//! the surface itself is the mirror. It counts as 0 below 0 and as 1 above 1.
+//! | symbol | function | source |
+//! |---|---|---|
+//! | F, Schlick | [`f_schlick`], [`f_schlick_ior`] | Schlick 1994, eq. 15 |
+//! | F, spherical Gaussian | [`f_spherical_gaussian`] | Karis 2013 |
+//! | F, Lazányi | [`f_lazanyi`] | Lazányi and Szirmay-Kalos 2005, eq. 5 |
+//! | F, dielectric | [`f_dielectric`]; 1 − F: [`t_dielectric`] | Cook and Torrance 1982, eq. 15 |
+//! | F, conductor | [`f_conductor`], [`conductor_rgb`]; 1 − F: [`t_conductor`] | Born and Wolf, section 14.2 |
+//! | f0 | [`f0_from_ior`], [`f0_from_metallic`] | Burley 2012 |
+//! | F_avg | [`f_schlick_average`] | closed form |
+//!
+//! `v_dot_h` is the cosine between the direction and the facet it is mirrored in, the same for light and
+//! view; N·V only where the surface itself is the mirror. It counts as 0 below 0 and as 1 above 1.
+//!
+//! With one distant light V·H, and F with it, is the same all over a sphere: a Fresnel rim is a matter of
+//! the light's direction, not of the silhouette.
 
 use crate::real::{Real, lit, one_minus_square, split, zero_unless_nan};
 use crate::term::{F0, Param, Term, V_DOT_H, entry};
@@ -17,9 +30,29 @@ pub(crate) const TERMS: &[Term] = &[
     F_LAZANYI,
 ];
 
-/// Schlick: F = f0 + (1 − f0)(1 − V·H)⁵.
+/// Schlick's approximation of the reflectance.
 ///
-/// Schlick 1994, eq. 15. From f0 at normal incidence to 1 at grazing.
+/// ```text
+/// F = f0 + (1 − f0)(1 − V·H)⁵
+/// ```
+///
+/// - *Source*: Schlick 1994, eq. 15.
+/// - *Arguments*: `f0` the reflectance at normal incidence in [0, 1]; `v_dot_h` V·H = L·H in [0,
+///   1].
+/// - *Value*: f0 at normal incidence to 1 at grazing; for f0 in [0, 1] a share.
+/// - *Outside*: cosines are brought into [0, 1]; f0 is taken as it is, cut off where its square
+///   would overflow.
+/// - *Error*: 8.0 ulp in f32, 7.6 in f64, of a V·H given; from vectors [`crate::Fresnel::eval`]
+///   has 1 − V·H without cancellation: 20.3.
+/// - *Right and wrong*: against [`f_dielectric`] of water to diamond off by up to 0.24 of the value, most
+///   where it is small; metals with a dip before grazing are missed, see [`f_lazanyi`].
+///
+/// ```
+/// assert_eq!(brdf::f_schlick(0.04, 1.0), 0.04);
+/// assert_eq!(brdf::f_schlick(0.04, 0.0), 1.0);
+/// let f: f64 = brdf::f_schlick(0.04, 0.5);
+/// assert!((f - 0.07).abs() < 1e-15);
+/// ```
 #[inline(always)]
 pub fn f_schlick<R: Real>(f0: R, v_dot_h: R) -> R {
     let f0 = f0.bounded();
@@ -38,10 +71,20 @@ const F_SCHLICK: Term = entry!(
 }")
 );
 
-/// Spherical Gaussian: F = f0 + (1 − f0) 2^((−5.55473 V·H − 6.98316) V·H).
+/// Schlick's approximation with a spherical Gaussian for the power.
 ///
-/// Karis 2013, after Lagarde 2012. Within 0.0038 of Schlick's power; at normal incidence
-/// 1.7e-4 (1 − f0) remains above f0.
+/// ```text
+/// F = f0 + (1 − f0) 2^((−5.55473 V·H − 6.98316) V·H)
+/// ```
+///
+/// - *Source*: Karis 2013, after Lagarde 2012.
+/// - *Arguments*: `f0` the reflectance at normal incidence in [0, 1]; `v_dot_h` V·H = L·H in [0,
+///   1].
+/// - *Value*: f0 + 1.7e-4 (1 − f0) at normal incidence to 1 at grazing.
+/// - *Outside*: cosines are brought into [0, 1].
+/// - *Error*: 2.9 ulp of the approximation in f32, 3.1 in f64.
+/// - *Right and wrong*: within 0.0038 of Schlick's power. Its exp2 takes four times as long as the three
+///   products of that power.
 #[inline(always)]
 pub fn f_spherical_gaussian<R: Real>(f0: R, v_dot_h: R) -> R {
     let u = v_dot_h.clamp_unit();
@@ -67,17 +110,33 @@ const F_SPHERICAL_GAUSSIAN: Term = entry!(
 }")
 );
 
-/// Schlick with f0 = ((n − 1)/(n + 1))² from an index of refraction n.
+/// Schlick's approximation for an index of refraction.
 ///
-/// Schlick 1994, eq. 15. The index is expected to be positive.
+/// ```text
+/// F = f0 + (1 − f0)(1 − V·H)⁵,    f0 = ((n − 1)/(n + 1))²
+/// ```
+///
+/// - *Source*: Schlick 1994, eq. 15.
+/// - *Arguments*: `ior` n = n_t/n_i > 0; `v_dot_h` V·H = L·H in [0, 1].
+/// - *Value*: f0 to 1.
+/// - *Outside*: cosines are brought into [0, 1]; the sign of the index is ignored.
+/// - *Error*: 7.8 ulp in f32, 7.5 in f64.
 #[inline(always)]
 pub fn f_schlick_ior<R: Real>(ior: R, v_dot_h: R) -> R {
     f_schlick(f0_from_ior(ior), v_dot_h)
 }
 
-/// Reflectance at normal incidence of an index of refraction: ((n − 1)/(n + 1))².
+/// Reflectance at normal incidence of an index of refraction.
 ///
-/// 0.04 for 1.5. The sign is ignored.
+/// ```text
+/// f0 = ((n − 1)/(n + 1))²
+/// ```
+///
+/// - *Source*: Fresnel's equations at normal incidence.
+/// - *Arguments*: `ior` n = n_t/n_i > 0.
+/// - *Value*: 0.04 for 1.5, 0.02 for 1.33.
+/// - *Outside*: the sign of the index is ignored.
+/// - *Error*: 3.8 ulp.
 #[inline(always)]
 pub fn f0_from_ior<R: Real>(ior: R) -> R {
     let n = ior.abs().at_most(lit(R::LARGE));
@@ -114,16 +173,31 @@ fn squares_above_one<R: Real>(a: (R, R), c: R) -> (R, R) {
     high.two_sum(low + (sum_low + (p_low + q_low)))
 }
 
-/// Exact Fresnel reflectance of a dielectric, unpolarised, η = n_t/n_i.
+/// Exact Fresnel reflectance of a dielectric, unpolarised.
 ///
-/// F = (r_s² + r_p²)/2 with g = sqrt(η² − 1 + c²), r_s = (c − g)/(c + g),
-/// r_p = (η² c − g)/(η² c + g); 1 where g² < 0, total internal reflection. Cook and Torrance
-/// 1982, eq. 15, in amplitudes.
+/// ```text
+/// F = ½ ((g − c)/(g + c))² (1 + ((c (g + c) − 1)/(c (g − c) + 1))²),    c = V·H, g² = η² − 1 + c²
+/// F = 1 where g² < 0: total internal reflection
+/// ```
 ///
-/// The differences in the numerators are multiplied out, so that η near 1 keeps its digits:
-/// r_s = (η² − 1)/(c + g)², r_p = (η² − 1)(c² η² − s²)/(η² c + g)².
-/// Where more than half is reflected it is 1 − [`t_dielectric`]. η = 1 gives 0: there is no
-/// interface.
+/// - *Source*: Fresnel's equations; in this form Cook and Torrance 1982, eq. 15.
+/// - *Arguments*: `eta` η = n_t/n_i > 0; `v_dot_h` V·H = L·H in [0, 1].
+/// - *Value*: ((η − 1)/(η + 1))² at normal incidence to 1 at grazing.
+/// - *Outside*: cosines are brought into [0, 1]; the sign of η is ignored; η = 1 gives 0: there is
+///   no interface.
+/// - *Error*: 7.2 ulp in f32, 6.3 in f64, of a V·H given. Near the critical angle of η < 1 it is
+///   steeper than any power of V·H: what is lost there was lost before.
+///
+/// The differences in the numerators are multiplied out, so that η near 1 keeps its digits: r_s =
+/// (η² − 1)/(c + g)², r_p = (η² − 1)(c² η² − s²)/(η² c + g)², F = (r_s² + r_p²)/2. Where more than
+/// half is reflected it is 1 − [`t_dielectric`].
+///
+/// ```
+/// let glass: f64 = brdf::f_dielectric(1.5, 1.0);
+/// assert!((glass - 0.04).abs() < 1e-15);
+/// // From inside, beyond the critical angle, all is reflected.
+/// assert_eq!(brdf::f_dielectric(1.0 / 1.5, 0.7), 1.0);
+/// ```
 #[inline(always)]
 pub fn f_dielectric<R: Real>(eta: R, v_dot_h: R) -> R {
     let refraction = Refraction::new(eta, v_dot_h);
@@ -135,10 +209,18 @@ pub fn f_dielectric<R: Real>(eta: R, v_dot_h: R) -> R {
     }
 }
 
-/// Exact Fresnel transmittance of a dielectric, 1 − [`f_dielectric`], accurate where little
+/// Exact Fresnel transmittance of a dielectric, 1 − F of [`f_dielectric`], accurate where little
 /// is transmitted.
 ///
-/// T = 2 c g (1/(c + g)² + η²/(η² c + g)²); 0 for total internal reflection.
+/// ```text
+/// 1 − F = 2 c g (1/(c + g)² + η²/(η² c + g)²),    c = V·H, g² = η² − 1 + c²
+/// ```
+///
+/// - *Source*: Fresnel's equations; Cook and Torrance 1982, eq. 15.
+/// - *Arguments*: `eta` η = n_t/n_i > 0; `v_dot_h` V·H = L·H in [0, 1].
+/// - *Value*: 0 under total internal reflection and at grazing, to 1.
+/// - *Outside*: cosines are brought into [0, 1]; the sign of η is ignored; η = 1 gives 1.
+/// - *Error*: 5.7 ulp in f32, 3.9 in f64.
 #[inline(always)]
 pub fn t_dielectric<R: Real>(eta: R, v_dot_h: R) -> R {
     let refraction = Refraction::new(eta, v_dot_h);
@@ -261,12 +343,29 @@ const T_DIELECTRIC: Term = entry!(
 
 /// Exact Fresnel reflectance of a conductor with complex index n + ik, unpolarised.
 ///
-/// With a² − b² = n² − k² − sin²θ and a b = n k: R_s = ((a − c)² + b²)/((a + c)² + b²),
-/// R_p = R_s ((a c − s²)² + b² c²)/((a c + s²)² + b² c²), F = (R_s + R_p)/2. Born and Wolf,
-/// section 14.2; Lagarde 2013. `k = 0` is the dielectric of index n.
+/// ```text
+/// F   = (R_s + R_p)/2
+/// R_s = ((a − c)² + b²)/((a + c)² + b²)
+/// R_p = R_s ((a c − s²)² + b² c²)/((a c + s²)² + b² c²)
+/// with a² − b² = n² − k² − s², a b = n k, c = V·H, s² = 1 − c²
+/// ```
+///
+/// - *Source*: Born and Wolf, section 14.2; Lagarde 2013.
+/// - *Arguments*: `n` the real part of the index, ≥ 0; `k` its imaginary part, ≥ 0; `v_dot_h` V·H
+///   = L·H in [0, 1].
+/// - *Value*: ((n − 1)² + k²)/((n + 1)² + k²) at normal incidence to 1 at grazing. `k = 0` is the
+///   dielectric of index n.
+/// - *Outside*: cosines are brought into [0, 1]; signs of n and k are ignored.
+/// - *Error*: 9.7 ulp in f32, 8.7 in f64.
 ///
 /// The smaller of a² and b² is n²k² over the larger, and a − c and a c − s² are quotients of
 /// differences of squares.
+///
+/// ```
+/// // Gold, for red light.
+/// let f: f64 = brdf::f_conductor(0.143, 3.983, 1.0);
+/// assert!((f - (0.857f64.powi(2) + 3.983f64.powi(2)) / (1.143f64.powi(2) + 3.983f64.powi(2))).abs() < 1e-15);
+/// ```
 #[inline(always)]
 pub fn f_conductor<R: Real>(n: R, k: R, v_dot_h: R) -> R {
     let (reflected, transmitted) = conductor(n, k, v_dot_h);
@@ -277,10 +376,20 @@ pub fn f_conductor<R: Real>(n: R, k: R, v_dot_h: R) -> R {
     }
 }
 
-/// Share of the light that a conductor absorbs, 1 − [`f_conductor`], accurate where it is
+/// Share of the light that a conductor absorbs, 1 − F of [`f_conductor`], accurate where it is
 /// small.
 ///
-/// 1 − R_s = 4 a c/((a + c)² + b²), and 1 − R_p = (1 − R_s) + R_s · 4 a c s²/((a c + s²)² + b² c²).
+/// ```text
+/// 1 − R_s = 4 a c/((a + c)² + b²)
+/// 1 − R_p = (1 − R_s) + R_s · 4 a c s²/((a c + s²)² + b² c²)
+/// ```
+///
+/// - *Source*: Born and Wolf, section 14.2; Lagarde 2013.
+/// - *Arguments*: `n` the real part of the index, ≥ 0; `k` its imaginary part, ≥ 0; `v_dot_h` V·H
+///   = L·H in [0, 1].
+/// - *Value*: 0 at grazing to 1.
+/// - *Outside*: cosines are brought into [0, 1]; signs of n and k are ignored.
+/// - *Error*: 7.8 ulp in f32, 6.6 in f64.
 #[inline(always)]
 pub fn t_conductor<R: Real>(n: R, k: R, v_dot_h: R) -> R {
     let (reflected, transmitted) = conductor(n, k, v_dot_h);
@@ -370,22 +479,42 @@ fn conductor<R: Real>(n: R, k: R, v_dot_h: R) -> (R, R) {
 }
 
 /// [`f_conductor`] in three colours.
+///
+/// - *Arguments*: `n` and `k` red, green and blue; `v_dot_h` V·H in [0, 1].
+/// - *Error*: that of [`f_conductor`]. Many at once: [`crate::batch::conductor_rgb`].
 #[inline(always)]
 pub fn conductor_rgb<R: Real>(n: [R; 3], k: [R; 3], v_dot_h: R) -> [R; 3] {
     [0, 1, 2].map(|i| f_conductor(n[i], k[i], v_dot_h))
 }
 
-/// Reflectance at normal incidence of a material given by base colour and metallic:
-/// lerp(0.04, base, metallic).
+/// Reflectance at normal incidence of a material given by base colour and metallic.
 ///
-/// Burley 2012; Karis 2013. 0.04 is a dielectric of index 1.5.
+/// ```text
+/// f0 = lerp(0.04, base_color, metallic)
+/// ```
+///
+/// - *Source*: Burley 2012; Karis 2013.
+/// - *Arguments*: `base_color` in [0, 1], linear; `metallic` in [0, 1].
+/// - *Value*: 0.04, a dielectric of index 1.5, to the base colour.
+/// - *Outside*: `metallic` is brought into [0, 1]; the colour is taken as it is.
+/// - *Error*: 2.1 ulp.
 #[inline(always)]
 pub fn f0_from_metallic<R: Real>(base_color: [R; 3], metallic: R) -> [R; 3] {
     let m = metallic.clamp_unit();
     base_color.map(|base| lit::<R>(0.04) * (lit::<R>(1.0) - m) + base.bounded() * m)
 }
 
-/// Schlick's reflectance averaged over the cosine-weighted hemisphere: (1 + 20 f0)/21.
+/// Schlick's reflectance averaged over the cosine-weighted hemisphere.
+///
+/// ```text
+/// F_avg = 2 ∫ F(μ) μ dμ = (1 + 20 f0)/21
+/// ```
+///
+/// - *Source*: closed form; Kulla and Conty 2017.
+/// - *Arguments*: `f0` the reflectance at normal incidence in [0, 1].
+/// - *Value*: 1/21 to 1.
+/// - *Outside*: f0 is taken as it is.
+/// - *Error*: 1.5 ulp.
 #[inline(always)]
 pub fn f_schlick_average<R: Real>(f0: R) -> R {
     (lit::<R>(1.0) + lit::<R>(20.0) * f0) / lit(21.0)
@@ -452,11 +581,19 @@ const T_CONDUCTOR: Term = entry!(
 }")
 );
 
-/// Lazányi's correction for metals: F = f0 + (1 − f0)(1 − V·H)⁵ − a V·H (1 − V·H)⁶.
+/// Lazányi's correction of Schlick's approximation for metals.
 ///
-/// Lazányi and Szirmay-Kalos 2005, eq. 5: Schlick minus the dip that metals with a large
-/// extinction show before grazing (a is fitted; 17.6 f0-dependent in the later literature).
-/// Not kept in [0, 1]: a large `a` makes it negative.
+/// ```text
+/// F = f0 + (1 − f0)(1 − V·H)⁵ − a V·H (1 − V·H)⁶
+/// ```
+///
+/// - *Source*: Lazányi and Szirmay-Kalos 2005, eq. 5.
+/// - *Arguments*: `f0` the reflectance at normal incidence in [0, 1]; `a` the depth of the dip,
+///   fitted for each metal; `v_dot_h` V·H = L·H in [0, 1].
+/// - *Value*: f0 to 1, with the dip that metals of a large extinction show before grazing.
+/// - *Outside*: cosines are brought into [0, 1]. Not kept in [0, 1]: a large `a` makes it
+///   negative.
+/// - *Error*: 9.9 ulp in f32, 7.8 in f64, on the scale of f0/2 where the terms cancel.
 #[inline(always)]
 pub fn f_lazanyi<R: Real>(f0: R, a: R, v_dot_h: R) -> R {
     let (f0, a) = (f0.bounded(), a.bounded());

@@ -1,8 +1,29 @@
 //! GGX from vectors in the tangent frame; [`crate::sampling`] draws them.
 //!
-//! Given vectors instead of cosines nothing cancels: sin²θ is x² + y², the half vector is
-//! used as l + v without its length, and 1 − V·H is |l − v|²/(4 (1 + V·H)). Directions are
-//! expected to have length 1 and to point away from the surface.
+//! | symbol | item | source |
+//! |---|---|---|
+//! | D | [`Ggx::d`], [`Ggx::d_between`] | Walter et al. 2007, eq. 33; Burley 2012, eq. 13 |
+//! | Λ, G₁ | [`Ggx::lambda`], [`Ggx::g1`] | Heitz 2014, eq. 72, 43 |
+//! | V | [`Ggx::visibility`] | Heitz 2014, eq. 99 |
+//! | D V | [`Ggx::eval`] | Walter et al. 2007, eq. 20 |
+//! | V·H, 1 − V·H | [`v_dot_h_and_rest`] | Hammon 2017 |
+//! | F | [`Fresnel`] | see [`crate::fresnel`] |
+//! | D V F cos θ | [`Specular`] | Walter et al. 2007, eq. 20; Heitz 2014, eq. 99 |
+//!
+//! Given vectors instead of cosines nothing cancels: sin²θ is x² + y², the half vector is used as l + v
+//! without its length, and 1 − V·H is |l − v|²/(4 (1 + V·H)). Directions are expected to have length 1 and
+//! to point away from the surface; z is along the normal. Where lengths or widths are such that a square
+//! overflows or vanishes, the value is that of the directions.
+//!
+//! ```
+//! use brdf::{Fresnel, Ggx, Specular, glam::Vec3};
+//!
+//! let gold = Fresnel::Conductor { n: [0.143f32, 0.375, 1.442], k: [3.983, 2.386, 1.603] };
+//! let lobe = Specular { ggx: Ggx::new(0.16), fresnel: gold };
+//! let (l, v) = (Vec3::new(0.6, 0.0, 0.8), Vec3::new(-0.6, 0.0, 0.8));
+//! let [red, green, blue] = lobe.eval_cos(l, v); // D V F cos θ, in 1/sr
+//! assert!(red > green && green > blue);
+//! ```
 
 use crate::fresnel::{conductor_rgb, f_dielectric};
 use crate::real::{Real, lit, plus, quotient, squared, times, zero_unless_nan};
@@ -21,6 +42,8 @@ pub struct Ggx<R> {
 
 impl<R: Real> Ggx<R> {
     /// The same width in all directions.
+    ///
+    /// - *Arguments*: `alpha` α = roughness² in (0, 1]; 0 is a mirror.
     #[inline(always)]
     pub fn new(alpha: R) -> Ggx<R> {
         Ggx {
@@ -44,7 +67,13 @@ impl<R: Real> Ggx<R> {
         (self.alpha_x * v[0], self.alpha_y * v[1])
     }
 
-    /// sqrt(z² + α_x² x² + α_y² y²), which is z sqrt(1 + α² tan²θ).
+    /// How long a direction is where the surface is squeezed to α = 1.
+    ///
+    /// ```text
+    /// sqrt(z² + α_x² x² + α_y² y²) = z sqrt(1 + α² tan²θ)
+    /// ```
+    ///
+    /// - *Arguments*: `v`.
     #[inline(always)]
     pub fn projected(&self, v: impl Into<Vector<R>>) -> R {
         let v = v.into();
@@ -54,8 +83,16 @@ impl<R: Real> Ggx<R> {
 
     /// D of a half vector of any length, such as l + v.
     ///
-    /// D = (m/(α_x α_y t))² α_x α_y/π with m = |h|², t = (h_x/α_x)² + (h_y/α_y)² + h_z²;
-    /// see [`crate::d_ggx_aniso`]. 0 below the horizon, and for a vector without length.
+    /// ```text
+    /// D = m² / (π α_x α_y t²),    m = |h|², t = (h_x/α_x)² + (h_y/α_y)² + h_z²
+    /// ```
+    ///
+    /// - *Source*: Walter et al. 2007, eq. 33; Burley 2012, eq. 13; see [`crate::d_ggx_aniso`].
+    /// - *Arguments*: `h` in the tangent frame, of any length.
+    /// - *Value*: 1/sr.
+    /// - *Outside*: 0 below the horizon, and for a vector without length.
+    /// - *Error*: as [`Ggx::d_between`], for the vector given: four ulps more than that where it is a
+    ///   rounded sum.
     #[inline(always)]
     pub fn d(&self, h: impl Into<Vector<R>>) -> R {
         let h = h.into();
@@ -65,8 +102,18 @@ impl<R: Real> Ggx<R> {
         })
     }
 
-    /// D of the half vector of `l` and `v`, of which the sums' rounding errors are kept: it
-    /// costs a few operations and saves four units in the last place.
+    /// D of the half vector of `l` and `v`, of which the sums' rounding errors are kept.
+    ///
+    /// ```text
+    /// D as in Ggx::d with h = l + v
+    /// ```
+    ///
+    /// - *Source*: Walter et al. 2007, eq. 33.
+    /// - *Arguments*: `l` and `v` the directions to light and viewer in the tangent frame, of length
+    ///   1.
+    /// - *Value*: 1/sr.
+    /// - *Outside*: 0 below the horizon and where l = −v.
+    /// - *Error*: 10.0 ulp in f32, 8.0 in f64; 4.8 and 4.1 on a stretched surface.
     #[inline(always)]
     pub fn d_between(&self, l: impl Into<Vector<R>>, v: impl Into<Vector<R>>) -> R {
         let (l, v) = (l.into(), v.into());
@@ -140,7 +187,17 @@ impl<R: Real> Ggx<R> {
         product * lit(FRAC_1_PI) * q * q
     }
 
-    /// Λ of a direction, see [`crate::lambda_ggx`]; +∞ at and below the horizon.
+    /// Λ of a direction, see [`crate::lambda_ggx`].
+    ///
+    /// ```text
+    /// Λ = (−1 + sqrt(1 + (α_x² x² + α_y² y²)/z²)) / 2
+    /// ```
+    ///
+    /// - *Source*: Heitz 2014, eq. 72 with 80.
+    /// - *Arguments*: `v` a direction of length 1.
+    /// - *Value*: 0 to +∞.
+    /// - *Outside*: +∞ at and below the horizon.
+    /// - *Error*: 5.6 ulp in f32, 4.9 in f64.
     #[inline(always)]
     pub fn lambda(&self, v: impl Into<Vector<R>>) -> R {
         let v = v.into();
@@ -160,6 +217,16 @@ impl<R: Real> Ggx<R> {
     }
 
     /// G₁ of a direction, see [`crate::g1_ggx`].
+    ///
+    /// ```text
+    /// G₁ = 2 z / (z + sqrt(z² + α_x² x² + α_y² y²))
+    /// ```
+    ///
+    /// - *Source*: Heitz 2014, eq. 43 with 72 and 80.
+    /// - *Arguments*: `v` a direction of length 1.
+    /// - *Value*: 0 to 1.
+    /// - *Outside*: 0 at and below the horizon.
+    /// - *Error*: 4.1 ulp in f32, 2.7 in f64.
     #[inline(always)]
     pub fn g1(&self, v: impl Into<Vector<R>>) -> R {
         let v = v.into();
@@ -175,7 +242,18 @@ impl<R: Real> Ggx<R> {
         lit::<R>(2.0) * v[2] / (v[2] + self.projected(v))
     }
 
-    /// Height-correlated visibility, see [`crate::v_ggx`]; 0 below the horizon.
+    /// Height-correlated visibility, see [`crate::v_ggx`].
+    ///
+    /// ```text
+    /// V = G₂/(4 N·L N·V) = 0.5 / (l_z sqrt(v_z² + α_x² v_x² + α_y² v_y²) + v_z sqrt(l_z² + α_x² l_x² + α_y² l_y²))
+    /// ```
+    ///
+    /// - *Source*: Heitz 2014, eq. 99.
+    /// - *Arguments*: `l` and `v` the directions to light and viewer in the tangent frame, of length
+    ///   1.
+    /// - *Value*: 1/4 at normal incidence to +∞.
+    /// - *Outside*: 0 below the horizon; on it the limit.
+    /// - *Error*: 5.0 ulp in f32, 4.0 in f64.
     #[inline(always)]
     pub fn visibility(&self, l: impl Into<Vector<R>>, v: impl Into<Vector<R>>) -> R {
         let (l, v) = (l.into(), v.into());
@@ -193,7 +271,19 @@ impl<R: Real> Ggx<R> {
         lit::<R>(0.5) / (l[2] * self.projected(v) + v[2] * self.projected(l)).abs()
     }
 
-    /// The BRDF with F = 1: D V, in 1/sr.
+    /// The BRDF with F = 1: D V.
+    ///
+    /// ```text
+    /// f = D V
+    /// ```
+    ///
+    /// - *Source*: Walter et al. 2007, eq. 20; Heitz 2014, eq. 99.
+    /// - *Arguments*: `l` and `v` the directions to light and viewer in the tangent frame, of length
+    ///   1.
+    /// - *Value*: 1/sr, 0 to +∞. Reciprocal.
+    /// - *Outside*: 0 below the horizon.
+    /// - *Error*: 15.1 ulp in f32, 12.7 in f64; D here keeps fewer rounding errors than
+    ///   [`Ggx::d_between`], for speed.
     #[inline(always)]
     pub fn eval(&self, l: impl Into<Vector<R>>, v: impl Into<Vector<R>>) -> R {
         let (l, v) = (l.into(), v.into());
@@ -310,11 +400,22 @@ fn smooth_d<R: Real>(x: R, y: R, z: R, alpha_x: R, alpha_y: R, d: R) -> R {
     if value.is_nan() { d } else { value }
 }
 
-/// V·H = |l + v|/2 and 1 − V·H = |l − v|²/(4 (1 + V·H)), for directions of length 1.
+/// V·H and 1 − V·H, the second without cancellation.
 ///
-/// Schlick takes the fifth power of the second, so that each of its ulps counts five times:
-/// sums and differences keep their rounding errors, and far from l = v the plain difference
-/// is the better one.
+/// ```text
+/// V·H = |l + v|/2,    1 − V·H = |l − v|²/(4 (1 + V·H))
+/// ```
+///
+/// - *Source*: Hammon 2017; identities of directions of length 1.
+/// - *Arguments*: `l` and `v` the directions to light and viewer in the tangent frame, of length
+///   1.
+/// - *Value*: both 0 to 1.
+/// - *Outside*: for other lengths those of the directions.
+/// - *Error*: 1.9 and 3.1 ulp in f32, 1.7 and 2.8 in f64.
+///
+/// Schlick takes the fifth power of the second, so that each of its ulps counts five times: sums
+/// and differences keep their rounding errors, and far from l = v the plain difference is the
+/// better one.
 #[inline(always)]
 pub fn v_dot_h_and_rest<R: Real>(l: impl Into<Vector<R>>, v: impl Into<Vector<R>>) -> (R, R) {
     let (l, v) = (l.into(), v.into());
@@ -400,7 +501,15 @@ pub enum Fresnel<R> {
 }
 
 impl<R: Real> Fresnel<R> {
-    /// Reflectance of the facet that mirrors `l` into `v`, directions of length 1.
+    /// Reflectance of the facet that mirrors `l` into `v`.
+    ///
+    /// - *Source*: see [`crate::fresnel`].
+    /// - *Arguments*: `l` and `v` the directions to light and viewer in the tangent frame, of length
+    ///   1.
+    /// - *Value*: red, green and blue, 0 to 1.
+    /// - *Error*: Schlick 20.3 ulp in f32, 16.7 in f64, most of it by the fifth power. The exact ones
+    ///   are those of a V·H rounded to the precision, 1.9 ulp: near the critical angle of an index below
+    ///   1 that is worth more.
     #[inline(always)]
     pub fn eval(&self, l: impl Into<Vector<R>>, v: impl Into<Vector<R>>) -> [R; 3] {
         let (l, v) = (l.into(), v.into());
@@ -457,7 +566,18 @@ pub struct Specular<R> {
 }
 
 impl<R: Real> Specular<R> {
-    /// BRDF times N·L, D V F cos θ, in 1/sr, for directions of length 1; 0 below the horizon.
+    /// BRDF times N·L.
+    ///
+    /// ```text
+    /// f cos θ = D V F N·L
+    /// ```
+    ///
+    /// - *Source*: Walter et al. 2007, eq. 20; Heitz 2014, eq. 99.
+    /// - *Arguments*: `l` and `v` the directions to light and viewer in the tangent frame, of length
+    ///   1.
+    /// - *Value*: 1/sr, red, green and blue.
+    /// - *Outside*: 0 below the horizon.
+    /// - *Error*: with Schlick's reflectance 20.9 ulp in f32 and f64.
     #[inline(always)]
     pub fn eval_cos(&self, l: impl Into<Vector<R>>, v: impl Into<Vector<R>>) -> [R; 3] {
         let (l, v) = (l.into(), v.into());
@@ -490,7 +610,21 @@ impl<R: Real> Specular<R> {
             .map(|f| rescued(f * value, (l, v), (), nothing))
     }
 
-    /// Draws a light for a view: the direction, its density and BRDF · N·L / density.
+    /// Draws a light for a view: the direction, its density, and BRDF · N·L / density in three
+    /// colours.
+    ///
+    /// - *Arguments*: `v` the view; `u` two numbers in [0, 1); `sampler` how.
+    ///
+    /// The mean of the weights over many `u` is the directional albedo. See [`Ggx::sample`].
+    ///
+    /// ```
+    /// use brdf::{Fresnel, Ggx, Sampler, Specular};
+    /// let lobe = Specular { ggx: Ggx::new(0.16f64), fresnel: Fresnel::Schlick { f0: [0.9, 0.5, 0.2] } };
+    /// let (drawn, rgb) = lobe.sample([0.0, 0.0, 1.0], [0.3, 0.7], Sampler::BoundedCap);
+    /// // The weight is BRDF · N·L over the density.
+    /// let value = lobe.eval_cos(drawn.l, [0.0, 0.0, 1.0]);
+    /// assert!((rgb[0] - value[0] / drawn.pdf).abs() < 1e-13);
+    /// ```
     pub fn sample(
         &self,
         v: impl Into<Vector<R>>,

@@ -1,4 +1,14 @@
-//! The half vector without the half vector: cosines from cosines.
+//! The half vector without the half vector: cosines from cosines; Rusinkiewicz' coordinates; α filtered.
+//!
+//! | symbol | item | source |
+//! |---|---|---|
+//! | N·H | [`n_dot_h_from`] | Hammon 2017 |
+//! | V·H | [`v_dot_h_from`] | Hammon 2017 |
+//! | θ_h, θ_d, φ_d | [`Rusinkiewicz`] | Rusinkiewicz 1998 |
+//! | α′ | [`alpha_filtered`] | Tokuyoshi and Kaplanyan 2019, eq. 5 and 7 |
+//!
+//! The identities are exact in algebra, need the cosine of *light and view* under the root (not N·L, a
+//! mistake in circulation), and are hazardous near the highlight: see [`n_dot_h_from`].
 
 use crate::real::{Real, lit, zero_unless_nan};
 use crate::term::{ALPHA, L_DOT_V, N_DOT_L, N_DOT_V, Param, Term, entry};
@@ -6,11 +16,26 @@ use crate::vector::{Vector, add, normalize, reflect};
 
 pub(crate) const TERMS: &[Term] = &[N_DOT_H_FROM, V_DOT_H_FROM, ALPHA_FILTERED];
 
-/// N·H = (N·L + N·V)/|L + V|, |L + V| = sqrt(2 + 2 L·V).
+/// N·H from the three other cosines.
 ///
-/// Hammon 2017. Exact in algebra and hazardous in arithmetic: near the highlight N·H is
-/// almost 1, and D of a smooth surface depends on 1 − N·H, of which this keeps few digits.
-/// Above 1 it counts as 1; where L = −V, or neither direction is above the horizon, it is 0.
+/// ```text
+/// N·H = (N·L + N·V)/|L + V|,    |L + V| = sqrt(2 + 2 L·V)
+/// ```
+///
+/// - *Source*: Hammon 2017 (GDC).
+/// - *Arguments*: `n_dot_l` N·L in [0, 1]; `n_dot_v` N·V in [0, 1]; `l_dot_v` L·V in [−1, 1].
+/// - *Value*: 0 to 1.
+/// - *Outside*: above 1 it counts as 1; where L = −V, or neither direction is above the horizon,
+///   it is 0; L·V is brought into [−1, 1].
+/// - *Error*: 2.9 ulp in f32, 2.5 in f64 — of N·H, which is not what matters.
+/// - *Right and wrong*: exact in algebra and hazardous in arithmetic: near the highlight N·H is
+///   almost 1, and D of a smooth surface depends on 1 − N·H, of which this keeps few digits. In f32
+///   it is wrong by factors at small α. From vectors: [`crate::Ggx::d_between`].
+///
+/// ```
+/// let n_dot_h: f64 = brdf::n_dot_h_from(0.8, 0.6, 0.96);
+/// assert!((n_dot_h - 1.4 / 3.92f64.sqrt()).abs() < 1e-15);
+/// ```
 #[inline(always)]
 pub fn n_dot_h_from<R: Real>(n_dot_l: R, n_dot_v: R, l_dot_v: R) -> R {
     let sum = n_dot_l.bounded() + n_dot_v.bounded();
@@ -33,10 +58,18 @@ const N_DOT_H_FROM: Term = entry!(
 }")
 );
 
-/// V·H = L·H = |L + V|/2 = sqrt((1 + L·V)/2).
+/// V·H = L·H from L·V: the cosine of half the angle.
 ///
-/// Hammon 2017. The cosines to the normal do not enter; they are arguments so that it is
-/// called like [`n_dot_h_from`]. L·V is cut off to [−1, 1].
+/// ```text
+/// V·H = |L + V|/2 = sqrt((1 + L·V)/2)
+/// ```
+///
+/// - *Source*: Hammon 2017 (GDC).
+/// - *Arguments*: `n_dot_l` N·L in [0, 1]; `n_dot_v` N·V in [0, 1]; `l_dot_v` L·V in [−1, 1].
+/// - *Value*: 0 to 1.
+/// - *Outside*: L·V is brought into [−1, 1]. The cosines to the normal do not enter; they are
+///   arguments so that it is called like [`n_dot_h_from`].
+/// - *Error*: 0.9 ulp.
 #[inline(always)]
 pub fn v_dot_h_from<R: Real>(n_dot_l: R, n_dot_v: R, l_dot_v: R) -> R {
     let unused = zero_unless_nan([n_dot_l, n_dot_v]);
@@ -53,10 +86,21 @@ const V_DOT_H_FROM: Term = entry!(
 }")
 );
 
-/// α widened by the variance of the normal within a pixel: α'² = min(1, α² + min(2 σ², 0.18)).
+/// α widened by the variance of the normal within a pixel: specular anti-aliasing.
 ///
-/// Tokuyoshi and Kaplanyan 2019, eq. 5 and 7; Real-Time Rendering, 4th edition, eq. 9.76. σ²
-/// is the variance of the slopes under the pixel's filter; 0.18 keeps a pixel that holds an
+/// ```text
+/// α′² = min(1, α² + min(2 σ², 0.18))
+/// ```
+///
+/// - *Source*: Tokuyoshi and Kaplanyan 2019, eq. 5 and 7; Real-Time Rendering, 4th edition, eq.
+///   9.76.
+/// - *Arguments*: `alpha` α = roughness² in [0, 1]; `variance` σ² of the slopes within a pixel, ≥
+///   0.
+/// - *Value*: α to 1.
+/// - *Outside*: a variance below 0 counts as 0; α is brought into [0, 1].
+/// - *Error*: 1.1 ulp.
+///
+/// σ² is the variance of the slopes under the pixel's filter; 0.18 keeps a pixel that holds an
 /// edge from turning everything rough.
 #[inline(always)]
 pub fn alpha_filtered<R: Real>(alpha: R, variance: R) -> R {

@@ -1,4 +1,15 @@
 //! Integrals over the hemisphere, and figures that follow from them.
+//!
+//! | symbol | function | how |
+//! |---|---|---|
+//! | ∫ D dω | [`integral_d_ggx`] | closed form, 1 to 2 |
+//! | ∫ D cos θ dω | [`integral_d_cos_ggx`] | 1 |
+//! | ∫ D G₁ v·m dm / N·V | [`integral_g1_d_ggx`] | quadrature; the weak furnace: 1 |
+//! | E(μ) | [`albedo_ggx`], [`albedo_ggx_separable`], [`albedo_ggx_divided_twice`] | quadrature |
+//! | share of a disc | [`share_ratio_above`] | closed form |
+//!
+//! E(μ) is the directional albedo with F = 1: what of the light from one direction leaves again after a
+//! single mirror. What is missing from 1 was mirrored down and lost; [`crate::energy`] puts it back.
 
 use crate::real::{Real, lit, zero_unless_nan};
 use crate::smith::sine;
@@ -16,11 +27,18 @@ pub(crate) const TERMS: &[Term] = &[
     SHARE_RATIO_ABOVE,
 ];
 
-/// ∫ D dω of GGX, the area of all facets per macrosurface area:
-/// 1 + α² atanh(s)/s, s = sqrt(1 − α²).
+/// ∫ D dω of GGX: the area of all facets over that of the surface.
 ///
-/// From 1 (α = 0) to 2 (α = 1), and on for α > 1 with atan in place of atanh. It is not 1:
-/// only ∫ D cos is.
+/// ```text
+/// ∫ D dω = 1 + α² atanh(s)/s,    s = sqrt(1 − α²)
+/// ```
+///
+/// - *Source*: closed form, from Walter et al. 2007, eq. 33.
+/// - *Arguments*: `alpha` α = roughness² in [0, 1].
+/// - *Value*: 1 (α = 0) to 2 (α = 1), and on for α > 1 with atan in place of atanh. It is not 1:
+///   only ∫ D cos θ is.
+/// - *Outside*: the sign of α is ignored.
+/// - *Error*: 2.3 ulp in f32, 2.1 in f64.
 pub fn integral_d_ggx<R: Real>(alpha: R) -> R {
     let one = lit::<R>(1.0);
     let a = alpha.abs().bounded();
@@ -55,7 +73,16 @@ const INTEGRAL_D_GGX: Term = entry!(
 }")
 );
 
-/// ∫ D cos θ dω of GGX: 1 for every α, which is what normalises D.
+/// ∫ D cos θ dω of GGX: what normalises D.
+///
+/// ```text
+/// ∫ D cos θ dω = 1
+/// ```
+///
+/// - *Source*: Walter et al. 2007, eq. 33.
+/// - *Arguments*: `alpha` α = roughness² in [0, 1].
+/// - *Value*: 1 for every α.
+/// - *Error*: none.
 pub fn integral_d_cos_ggx<R: Real>(alpha: R) -> R {
     if alpha.is_nan() { alpha } else { lit(1.0) }
 }
@@ -70,13 +97,20 @@ const INTEGRAL_D_COS_GGX: Term = entry!(
 }")
 );
 
-/// ∫ D G₁(v) max(v·m, 0) dm / N·V of GGX, by quadrature of D and G₁: 1 for every view.
+/// The weak white furnace: visible facets over the surface they cover, by quadrature of D and G₁.
 ///
-/// Heitz 2014, eq. 11 and 17: in any direction the visible facets cover exactly the surface.
-/// This is what fixes G₁ once D is chosen, and what a wrong pairing of the two breaks. Over
-/// the slopes (p, q) with p = r cos φ, where v·m > 0 is the half plane r cos φ tan θ > −1.
-/// Below N·V = 0.001 that view is taken. D is evaluated at a cosine, which below α = 1e-4 no
-/// longer carries it.
+/// ```text
+/// ∫ D G₁(v) max(v·m, 0) dm / N·V = 1
+/// ```
+///
+/// - *Source*: Heitz 2014, eq. 11 and 17.
+/// - *Arguments*: `n_dot_v` N·V in [0, 1]; `alpha` α = roughness² in [0, 1].
+/// - *Value*: 1 for every view, within 1e-7: in any direction the visible facets cover exactly the
+///   surface. This is what fixes G₁ once D is chosen, and what a wrong pairing of the two breaks.
+/// - *Outside*: below N·V = 0.001 that view is taken.
+///
+/// Over the slopes (p, q) with p = r cos φ, where v·m > 0 is the half plane r cos φ tan θ > −1. D
+/// is evaluated at a cosine, which below α = 1e-4 no longer carries it.
 pub fn integral_g1_d_ggx<R: Real>(n_dot_v: R, alpha: R) -> R {
     if n_dot_v.is_nan() || alpha.is_nan() {
         return zero_unless_nan([n_dot_v, alpha]);
@@ -315,10 +349,25 @@ fn albedo<R: Real>(n_dot_v: R, alpha: R, visibility: impl Fn(View<R>, R) -> R) -
     directional(mu, alpha, rule, |n_dot_l| visibility(view, n_dot_l))
 }
 
-/// Directional albedo of GGX with F = 1, height-correlated: E(μ) = ∫ D V N·L dω.
+/// Directional albedo of GGX with F = 1 and the height-correlated G₂.
 ///
-/// By quadrature over the disc of slopes; at α = 1 it is 1 − μ ln(1 + 1/μ). 1 at `alpha = 0`
-/// (a mirror); `n_dot_v` at or below 0 gives the limit at grazing.
+/// ```text
+/// E(μ) = ∫ D V N·L dω,    E(μ) = 1 − μ ln(1 + 1/μ) at α = 1
+/// ```
+///
+/// - *Source*: quadrature over the disc of slopes.
+/// - *Arguments*: `n_dot_v` N·V in [0, 1]; `alpha` α = roughness² in [0, 1].
+/// - *Value*: 0.307 (α = 1, seen straight on) to 1 (a mirror).
+/// - *Outside*: a view at or below 0 gives the limit at grazing; α = 0 is a mirror.
+/// - *Error*: 7.2e-6 in f32 (60 ulp of 1); 1e-12 at α = 1 in f64.
+///
+/// About 10 µs. For a table of it see [`crate::AlbedoTable`], for fits [`crate::albedo_fits`].
+///
+/// ```
+/// let mu: f64 = 0.3;
+/// assert!((brdf::albedo_ggx(mu, 1.0) - (1.0 - mu * (1.0 + 1.0 / mu).ln())).abs() < 1e-12);
+/// assert!((brdf::albedo_ggx(0.5f64, 0.16) - 0.926437508815).abs() < 1e-11);
+/// ```
 pub fn albedo_ggx<R: Real>(n_dot_v: R, alpha: R) -> R {
     albedo(n_dot_v, alpha, View::correlated)
 }
@@ -331,7 +380,17 @@ const ALBEDO_GGX: Term = entry!(
     wgsl: None
 );
 
-/// Directional albedo of GGX with F = 1 and separable G₂, never above [`albedo_ggx`].
+/// Directional albedo of GGX with F = 1 and the separable G₂.
+///
+/// ```text
+/// E(μ) = ∫ D G₁(l) G₁(v)/(4 N·L N·V) N·L dω
+/// ```
+///
+/// - *Source*: quadrature over the disc of slopes.
+/// - *Arguments*: `n_dot_v` N·V in [0, 1]; `alpha` α = roughness² in [0, 1].
+/// - *Value*: never above [`albedo_ggx`].
+/// - *Outside*: a view at or below 0 gives the limit at grazing; α = 0 is a mirror.
+/// - *Error*: 7.8e-6 in f32 (65 ulp of 1).
 pub fn albedo_ggx_separable<R: Real>(n_dot_v: R, alpha: R) -> R {
     albedo(n_dot_v, alpha, View::separable)
 }
@@ -344,9 +403,16 @@ const ALBEDO_GGX_SEPARABLE: Term = entry!(
     wgsl: None
 );
 
-/// Directional albedo of the mistake that divides by 4 N·L N·V twice: ∫ D V/(4 N·L N·V) N·L dω.
+/// Directional albedo of the mistake that divides by 4 N·L N·V twice.
 ///
-/// Too dark when seen straight on, and far above 1 at grazing angles.
+/// ```text
+/// E(μ) = ∫ D V/(4 N·L N·V) N·L dω
+/// ```
+///
+/// - *Source*: quadrature over the disc of slopes.
+/// - *Arguments*: `n_dot_v` N·V in [0, 1]; `alpha` α = roughness² in [0, 1].
+/// - *Value*: too dark when seen straight on, and far above 1 at grazing angles.
+/// - *Outside*: a view at or below 0 gives the limit at grazing; α = 0 is a mirror.
 pub fn albedo_ggx_divided_twice<R: Real>(n_dot_v: R, alpha: R) -> R {
     albedo(n_dot_v, alpha, |view, n_dot_l| {
         view.correlated(n_dot_l) / (lit::<R>(4.0) * n_dot_l * view.mu)
@@ -361,11 +427,19 @@ const ALBEDO_GGX_DIVIDED_TWICE: Term = entry!(
     wgsl: None
 );
 
-/// Share of the lit, visible disc of a sphere where 1/(4 N·L N·V) exceeds `ratio`:
-/// min(1, 1/(4 ratio cos²(β/2))), β the angle between light and view in degrees.
+/// Share of the lit, visible disc of a sphere where a second division by 4 N·L N·V changes the
+/// value by more than `ratio`.
 ///
-/// On that part of the disc N·L N·V is distributed uniformly in image area between 0 and
-/// cos²(β/2), for a distant light and an orthographic view. `ratio <= 0` gives 1.
+/// ```text
+/// share = min(1, 1/(4 ratio cos²(β/2)))
+/// ```
+///
+/// - *Source*: closed form: on that part of the disc N·L N·V is distributed uniformly in image
+///   area between 0 and cos²(β/2).
+/// - *Arguments*: `ratio` > 0; `light_deg` β in degrees, 0 to 180.
+/// - *Value*: 0 to 1, for a distant light and an orthographic view.
+/// - *Outside*: `ratio` ≤ 0 gives 1.
+/// - *Error*: 5.9 ulp in f32, 5.3 in f64.
 pub fn share_ratio_above<R: Real>(ratio: R, light_deg: R) -> R {
     if ratio <= lit(0.0) {
         return lit(1.0);

@@ -1,4 +1,20 @@
 //! Drawing lights for a view: visible normals in three ways, and the cosine.
+//!
+//! | [`Sampler`] | density of l | weight (F = 1) |
+//! |---|---|---|
+//! | [`Sampler::Hemisphere`], [`Sampler::SphericalCap`] | G₁(v) D/(4 N·V) | G₂/G₁(v) |
+//! | [`Sampler::BoundedCap`] | D/(2 (k N·V + sqrt(…))) | D V N·L/density |
+//! | [`Sampler::Cosine`] | N·L/π | D V π |
+//!
+//! The normals are those visible from v, D_v(m) = G₁(v) max(v·m, 0) D(m)/N·V, whose density is spread over
+//! lights by dω_l = 4 v·m dω_m. Heitz and d'Eon 2014 introduced them; the first two samplers draw the same
+//! ones in different ways. The bounded cap leaves out normals that must mirror below the horizon, and
+//! divides the density by what remains: k = (1 − α²) s²/(s² + α² N·V²) with s = 1 + sin θ_v and α the
+//! smaller width (Eto and Tokuyoshi 2023). With fewer lights wasted it is the best of them, but for α near
+//! 1, where the cosine is.
+//!
+//! A light below the horizon has weight 0 and may be thrown away: that is what single scattering
+//! loses. Views below the horizon work, too: a random walk comes from there.
 
 use crate::ggx::Ggx;
 use crate::real::{Real, lit, zero_unless_nan};
@@ -31,8 +47,18 @@ pub struct Sample<R> {
 }
 
 impl<R: Real> Ggx<R> {
-    /// Density with which [`Ggx::sample`] draws `l` for a view `v`, in 1/sr, for `l` above the
-    /// horizon. Below it only [`Sampler::BoundedCap`] may never draw what has a density here.
+    /// Density with which [`Ggx::sample`] draws `l` for a view `v`, for `l` above the horizon.
+    ///
+    /// ```text
+    /// p = D/(2 (k N·V + sqrt(N·V² + α_x² v_x² + α_y² v_y²))),    k = 1 but for the bounded cap
+    /// ```
+    ///
+    /// - *Source*: Heitz 2018; Dupuy and Benyoub 2023; Eto and Tokuyoshi 2023.
+    /// - *Arguments*: `l` and `v` the directions to light and viewer in the tangent frame, of length
+    ///   1; `sampler` how.
+    /// - *Value*: 1/sr.
+    /// - *Outside*: below the horizon [`Sampler::BoundedCap`] may never draw what has a density here.
+    /// - *Error*: 10.5 ulp in f32, 8.1 in f64; 7.4 and 6.4 on a stretched surface.
     #[inline(always)]
     pub fn pdf(&self, l: impl Into<Vector<R>>, v: impl Into<Vector<R>>, sampler: Sampler) -> R {
         let (l, v) = (l.into(), v.into());
@@ -89,9 +115,31 @@ impl<R: Real> Ggx<R> {
         (a, lit::<R>(1.0) + (v[0] * v[0] + v[1] * v[1]).sqrt())
     }
 
-    /// Draws a light for a view from two numbers in [0, 1).
+    /// Draws a light for a view from two numbers.
     ///
-    /// The weight is G₂/G₁ for visible normals, and BRDF · N·L / density for the others.
+    /// - *Source*: Heitz 2018, listing 1; Dupuy and Benyoub 2023, algorithm 1; Eto and Tokuyoshi 2023.
+    /// - *Arguments*: `v` the view, of length 1; `u` two numbers in [0, 1), brought into [0, 1];
+    ///   `sampler` how.
+    /// - *Value*: the direction, its weight BRDF · N·L / density (F = 1) and its density in 1/sr, both
+    ///   of the direction as rounded.
+    /// - *Error*: of the direction at most 12 ulp of 1, or what half a unit in the last place of
+    ///   each argument changes, where that is more (0.38 to 0.55 of it found); of its density 10.7 ulp, of its
+    ///   weight 6.3.
+    ///
+    /// ```
+    /// use brdf::{Ggx, Sampler};
+    /// let ggx = Ggx::new(0.4f64);
+    /// let v = [0.6, 0.0, 0.8];
+    /// let steps = 200;
+    /// // A stratified estimate of the directional albedo.
+    /// let mut sum = 0.0;
+    /// for i in 0..steps * steps {
+    ///     let u = [i / steps, i % steps].map(|i| (i as f64 + 0.5) / steps as f64);
+    ///     sum += ggx.sample(v, u, Sampler::BoundedCap).weight;
+    /// }
+    /// let albedo = sum / (steps * steps) as f64;
+    /// assert!((albedo - brdf::albedo_ggx(0.8, 0.4)).abs() < 1e-3);
+    /// ```
     pub fn sample(&self, v: impl Into<Vector<R>>, u: [R; 2], sampler: Sampler) -> Sample<R> {
         let (v, u) = (v.into(), u.map(R::clamp_unit));
         let l = self.direction(v, u, sampler);
@@ -121,9 +169,17 @@ impl<R: Real> Ggx<R> {
 
     /// BRDF (F = 1) times N·L over [`Ggx::pdf`]: what a light drawn for a view counts.
     ///
-    /// For visible normals D cancels and G₂/G₁ remains, N·L (N·V + sqrt(…)) over N·L sqrt(…) +
-    /// N·V sqrt(…): at most 1, and of full accuracy however smooth the surface. 0 where the
-    /// light or the view is not above the horizon.
+    /// ```text
+    /// w = G₂/G₁(v) = N·L (N·V + sqrt(…)) / (N·L sqrt(…) + N·V sqrt(…))    for visible normals
+    /// ```
+    ///
+    /// - *Source*: Heitz 2018; Eto and Tokuyoshi 2023.
+    /// - *Arguments*: `l` and `v` the directions to light and viewer in the tangent frame, of length
+    ///   1; `sampler` how.
+    /// - *Value*: 0 to 1 for visible normals, of full accuracy however smooth the surface, since D
+    ///   cancels.
+    /// - *Outside*: 0 where the light or the view is not above the horizon.
+    /// - *Error*: 6.3 ulp in f32, 5.3 in f64; 7.7 and 4.8 on a stretched surface.
     #[inline(always)]
     pub fn weight(&self, l: impl Into<Vector<R>>, v: impl Into<Vector<R>>, sampler: Sampler) -> R {
         let (l, v) = (l.into(), v.into());

@@ -1,16 +1,30 @@
 //! Masking and shadowing by Smith's model: Λ, G₁, G₂ and the visibility V.
 //!
-//! Smith's surface is a height field whose slopes do not depend on one another. All of it
-//! follows from one function of the distribution, Λ (Heitz 2014, section 5):
+//! | symbol | function | source |
+//! |---|---|---|
+//! | Λ | [`lambda_ggx`], [`lambda_beckmann`] | Heitz 2014, eq. 72, 66 |
+//! | G₁ | [`g1_ggx`], [`g1_beckmann`], [`g1_beckmann_rational`] | Heitz 2014, eq. 43; Walter et al. 2007, eq. 34, 26, 27 |
+//! | 1 − G₁ | [`one_minus_g1_ggx`], [`one_minus_g1_beckmann`] | Heitz 2014, eq. 43 |
+//! | G₂ | [`g2_ggx`], [`g2_beckmann`] | Heitz 2014, eq. 99 |
+//! | G₂, separable | [`g2_ggx_separable`] | Heitz 2014, eq. 98 |
+//! | G₂, approximated | [`g2_ggx_hammon`] | Hammon 2017 |
+//! | V = G₂/(4 N·L N·V) | [`v_ggx`], [`v_ggx_separable`], [`v_ggx_hammon`] | Lagarde and de Rousiers 2014, listing 2 |
 //!
-//! - G₁(v) = 1/(1 + Λ(v)), the share of facets turned to v that v sees;
-//! - G₂(l, v) = 1/(1 + Λ(l) + Λ(v)), the share that both see, with masking and shadowing
-//!   correlated through the height of the facet;
-//! - V = G₂/(4 N·L N·V), what remains of the BRDF next to D and F.
+//! Smith's surface is a height field whose slopes do not depend on one another. All of it follows from
+//! one function of the distribution, Λ (Heitz 2014, section 5):
 //!
-//! A cosine at or below 0 is a direction below the horizon: Λ is +∞, G is 0. V is 0 below
-//! the horizon and takes its limit on it. Cosines above 1 count as 1. Only α² enters, but
-//! for Hammon's approximation, which brings α into [0, 1].
+//! ```text
+//! G₁(v)    = 1 / (1 + Λ(v))             of the facets turned to v, the share that v sees
+//! G₂(l, v) = 1 / (1 + Λ(l) + Λ(v))      the share that both see; both grow with a facet's height
+//! V        = G₂ / (4 N·L N·V)           what remains of the BRDF next to D and F
+//! ```
+//!
+//! The trap is to divide by 4 N·L N·V twice: V already is. [`v_ggx`] may be any size, [`g2_ggx`] is in
+//! [0, 1]; neither stands for the other.
+//!
+//! A cosine at or below 0 is a direction below the horizon: Λ is +∞, G is 0. V is 0 below the horizon and
+//! takes its limit on it. Cosines above 1 count as 1. Only α² enters, but for Hammon's approximation,
+//! which brings α into [0, 1].
 
 use crate::real::{Real, lit, one_minus_square, quotient, zero_unless_nan};
 use crate::term::{ALPHA, N_DOT_L, N_DOT_V, N_DOT_X, Term, entry};
@@ -58,12 +72,28 @@ pub(crate) fn projected<R: Real>(c: R, alpha: R) -> R {
     c.hypot(alpha.bounded() * sine(c))
 }
 
-/// Λ of GGX: (sqrt(1 + α² tan²θ) − 1)/2.
+/// Λ of GGX: for each facet that a direction sees, the area of those turned to it that it does
+/// not.
 ///
-/// Heitz 2014, eq. 72. Range 0 to +∞, 0 at normal incidence.
+/// ```text
+/// Λ = (−1 + sqrt(1 + α² tan²θ)) / 2,    cos θ = N·X
+/// ```
 ///
-/// The printed form cancels where α tan θ is small; multiplied out, with x = α² tan²θ, it is
-/// x/(2 (1 + sqrt(1 + x))), and for large x the same divided by the root.
+/// - *Source*: Heitz 2014, eq. 72.
+/// - *Arguments*: `n_dot_x` the cosine N·X of the direction in [0, 1]; `alpha` α = roughness² in
+///   [0, 1].
+/// - *Value*: 0 at normal incidence, +∞ at grazing: about α/(2 N·X).
+/// - *Outside*: at or below the horizon +∞; a cosine above 1 counts as 1; only α² counts.
+/// - *Error*: 6.9 ulp in f32, 6.4 in f64.
+///
+/// The printed form cancels where α tan θ is small; multiplied out, with x = α² tan²θ, it is x/(2
+/// (1 + sqrt(1 + x))), and for large x the same divided by the root.
+///
+/// ```
+/// let lambda = brdf::lambda_ggx(0.6, 0.16f64);
+/// let g1 = brdf::g1_ggx(0.6, 0.16);
+/// assert!((g1 - 1.0 / (1.0 + lambda)).abs() < 1e-15);
+/// ```
 #[inline(always)]
 pub fn lambda_ggx<R: Real>(n_dot_x: R, alpha: R) -> R {
     let (half, one) = (lit::<R>(0.5), lit::<R>(1.0));
@@ -154,13 +184,22 @@ fn cot_over_alpha<R: Real>(c: R, alpha: R) -> (R, R) {
     quotient((c, lit(0.0)), (t, t_low + alpha * s_low))
 }
 
-/// Λ of Beckmann: (erf(a) − 1)/2 + exp(−a²)/(2 a sqrt(π)), a = 1/(α tan θ).
+/// Λ of Beckmann.
 ///
-/// Heitz 2014, eq. 66 and 61. Range 0 to +∞.
+/// ```text
+/// Λ = (erf(a) − 1)/2 + exp(−a²) / (2 a sqrt(π)),    a = 1/(α tan θ),    cos θ = N·X
+/// ```
 ///
-/// The two terms cancel: at a = 5 they agree in all but the last two digits. Multiplied out
-/// it is exp(−a²) (1 − a sqrt(π) erfcx(a))/(2 a sqrt(π)), the bracket from a series of its
-/// own and the exponent as an unevaluated sum.
+/// - *Source*: Heitz 2014, eq. 66 with 61.
+/// - *Arguments*: `n_dot_x` the cosine N·X of the direction in [0, 1]; `alpha` α = roughness² in
+///   [0, 1].
+/// - *Value*: 0 to +∞; less than 1e-7 for a > 3.5.
+/// - *Outside*: at or below the horizon +∞; a cosine above 1 counts as 1; only α² counts.
+/// - *Error*: 10.5 ulp in f32, 9.8 in f64.
+///
+/// The two terms cancel: at a = 5 they agree in all but the last two digits. Multiplied out it is
+/// exp(−a²) (1 − a sqrt(π) erfcx(a))/(2 a sqrt(π)), the bracket from a series of its own and the
+/// exponent as an unevaluated sum.
 pub fn lambda_beckmann<R: Real>(n_dot_x: R, alpha: R) -> R {
     if n_dot_x <= lit(0.0) {
         return lit::<R>(1.0) / lit(0.0);
@@ -212,9 +251,19 @@ const LAMBDA_BECKMANN: Term = entry!(
 }")
 );
 
-/// G₁ of GGX: 2 c / (c + sqrt(c² + α² s²)).
+/// Smith's masking G₁ of GGX.
 ///
-/// Walter et al. 2007, eq. 34; Heitz 2014, eq. 43. Range 0 to 1.
+/// ```text
+/// G₁ = 2 / (1 + sqrt(1 + α² tan²θ)) = 2 c / (c + sqrt(c² + α² s²)),    c = cos θ = N·X, s = sin θ
+/// ```
+///
+/// - *Source*: Walter et al. 2007, eq. 34; Heitz 2014, eq. 43 with 72.
+/// - *Arguments*: `n_dot_x` the cosine N·X of the direction in [0, 1]; `alpha` α = roughness² in
+///   [0, 1].
+/// - *Value*: 0 at grazing to 1 at normal incidence.
+/// - *Outside*: at or below the horizon 0; a cosine above 1 counts as 1; only α² counts, any α ≥
+///   0.
+/// - *Error*: 5.3 ulp in f32, 4.3 in f64; of 1 − G₁ see [`one_minus_g1_ggx`].
 #[inline(always)]
 pub fn g1_ggx<R: Real>(n_dot_x: R, alpha: R) -> R {
     if n_dot_x <= lit(0.0) {
@@ -236,9 +285,19 @@ const G1_GGX: Term = entry!(
 }")
 );
 
-/// G₁ of Beckmann: 1/(1 + Λ).
+/// Smith's masking G₁ of Beckmann.
 ///
-/// Heitz 2014, eq. 43 with 66; Walter et al. 2007, eq. 23. Range 0 to 1.
+/// ```text
+/// G₁ = 1/(1 + Λ) = 2 / (1 + erf(a) + exp(−a²)/(a sqrt(π))),    a = 1/(α tan θ)
+/// ```
+///
+/// - *Source*: Walter et al. 2007, eq. 26; Heitz 2014, eq. 43 with 66.
+/// - *Arguments*: `n_dot_x` the cosine N·X of the direction in [0, 1]; `alpha` α = roughness² in
+///   [0, 1].
+/// - *Value*: 0 at grazing to 1 at normal incidence.
+/// - *Outside*: at or below the horizon 0; a cosine above 1 counts as 1; only α² counts, any α ≥
+///   0.
+/// - *Error*: 11.2 ulp in f32, 10.0 in f64.
 pub fn g1_beckmann<R: Real>(n_dot_x: R, alpha: R) -> R {
     lit::<R>(1.0) / (lit::<R>(1.0) + lambda_beckmann(n_dot_x, alpha))
 }
@@ -247,17 +306,29 @@ const G1_BECKMANN: Term = entry!(
     g1_beckmann(n_dot_x: N_DOT_X, alpha: ALPHA),
     symbol: "G₁", latex: r"G_1", cost: 62,
     doc: "Smith's masking of the Beckmann distribution, 0 to 1",
-    source: "Heitz 2014, eq. 43 and 66; Walter et al. 2007, eq. 23",
+    source: "Heitz 2014, eq. 43 and 66; Walter et al. 2007, eq. 26",
     wgsl: Some("fn lobe_g1_beckmann(n_dot_x: f32, alpha: f32) -> f32 {
     return 1.0 / (1.0 + lobe_lambda_beckmann(n_dot_x, alpha));
 }"),
     needs: ["lambda_beckmann"]
 );
 
-/// Walter's rational fit of G₁ of Beckmann in a = 1/(α tan θ), 1 for a ≥ 1.6.
+/// Walter's rational fit of G₁ of Beckmann.
 ///
-/// Walter et al. 2007, eq. 27. Within 0.35 % of the exact one. It exceeds 1 (by 6e-5) for a
-/// between 1.5481 and 1.6, and jumps at 1.6.
+/// ```text
+/// G₁ ≈ (3.535 a + 2.181 a²) / (1 + 2.276 a + 2.577 a²)    where a < 1.6
+///      1                                                  elsewhere,    a = 1/(α tan θ)
+/// ```
+///
+/// - *Source*: Walter et al. 2007, eq. 27.
+/// - *Arguments*: `n_dot_x` the cosine N·X of the direction in [0, 1]; `alpha` α = roughness² in
+///   [0, 1].
+/// - *Value*: 0 to 1.00006.
+/// - *Outside*: at or below the horizon 0; a cosine above 1 counts as 1; only α² counts, any α ≥
+///   0.
+/// - *Error*: 5.0 ulp of the fit in f32, 4.0 in f64; the fit is within 0.32 % of [`g1_beckmann`].
+/// - *Right and wrong*: it exceeds 1 (by 6e-5) for a between 1.5481 and 1.6, and jumps at 1.6,
+///   where the exact one is 0.9982.
 #[inline(always)]
 pub fn g1_beckmann_rational<R: Real>(n_dot_x: R, alpha: R) -> R {
     if n_dot_x <= lit(0.0) {
@@ -289,11 +360,19 @@ const G1_BECKMANN_RATIONAL: Term = entry!(
 }")
 );
 
-/// 1 − G₁ of GGX, the share of the facets turned to a direction that it does not see:
-/// Λ/(1 + Λ) = (α sin θ / (c + sqrt(c² + α² s²)))².
+/// 1 − G₁ of GGX: of the facets turned to a direction, the share hidden from it.
 ///
-/// Heitz 2014, eq. 43 and 72. Range 0 to 1; at or below the horizon 1. Accurate where G₁ is almost
-/// 1, where the difference from 1 has no digits left.
+/// ```text
+/// 1 − G₁ = Λ / (1 + Λ) = (α s / (c + sqrt(c² + α² s²)))²,    c = N·X, s² = 1 − c²
+/// ```
+///
+/// - *Source*: Heitz 2014, eq. 43 with 72.
+/// - *Arguments*: `n_dot_x` the cosine N·X of the direction in [0, 1]; `alpha` α = roughness² in
+///   [0, 1].
+/// - *Value*: 0 at normal incidence to 1 at grazing.
+/// - *Outside*: at or below the horizon 1; a cosine above 1 counts as 1; only α² counts.
+/// - *Error*: 8.1 ulp in f32, 7.3 in f64, also where G₁ is almost 1 and a difference from 1 has no
+///   digits left.
 #[inline(always)]
 pub fn one_minus_g1_ggx<R: Real>(n_dot_x: R, alpha: R) -> R {
     if n_dot_x <= lit(0.0) {
@@ -318,9 +397,18 @@ const ONE_MINUS_G1_GGX: Term = entry!(
 }")
 );
 
-/// 1 − G₁ of Beckmann: Λ/(1 + Λ), accurate where G₁ is almost 1.
+/// 1 − G₁ of Beckmann: of the facets turned to a direction, the share hidden from it.
 ///
-/// Heitz 2014, eq. 43 with 66. Range 0 to 1; at or below the horizon 1.
+/// ```text
+/// 1 − G₁ = Λ / (1 + Λ)
+/// ```
+///
+/// - *Source*: Heitz 2014, eq. 43 with 66.
+/// - *Arguments*: `n_dot_x` the cosine N·X of the direction in [0, 1]; `alpha` α = roughness² in
+///   [0, 1].
+/// - *Value*: 0 at normal incidence to 1 at grazing.
+/// - *Outside*: at or below the horizon 1; a cosine above 1 counts as 1; only α² counts.
+/// - *Error*: 10.5 ulp in f32, 9.1 in f64.
 pub fn one_minus_g1_beckmann<R: Real>(n_dot_x: R, alpha: R) -> R {
     let lambda = lambda_beckmann(n_dot_x, alpha);
     if lambda > lit(R::LARGE) {
@@ -341,9 +429,27 @@ const ONE_MINUS_G1_BECKMANN: Term = entry!(
     needs: ["lambda_beckmann"]
 );
 
-/// Height-correlated G₂ of GGX: 1/(1 + Λ(l) + Λ(v)).
+/// G₂ of GGX, masking and shadowing, correlated through the height of the facet.
 ///
-/// Heitz 2014, eq. 99; Ross et al. 2005. Range 0 to 1; 4 N·L N·V times [`v_ggx`].
+/// ```text
+/// G₂ = 1 / (1 + Λ(l) + Λ(v))
+///    = 2 N·L N·V / (N·L sqrt(α² + (1 − α²)(N·V)²) + N·V sqrt(α² + (1 − α²)(N·L)²))
+/// ```
+///
+/// - *Source*: Heitz 2014, eq. 99; Ross, Dion and Potvin 2005.
+/// - *Arguments*: `n_dot_l` N·L in [0, 1]; `n_dot_v` N·V in [0, 1]; `alpha` α = roughness² in [0,
+///   1].
+/// - *Value*: 0 to 1; 4 N·L N·V times [`v_ggx`]. Reciprocal.
+/// - *Outside*: at or below the horizon 0; a cosine above 1 counts as 1; only α² counts, any α ≥
+///   0.
+/// - *Error*: 6.0 ulp in f32, 5.6 in f64.
+///
+/// ```
+/// let (l, v, alpha) = (0.8, 0.6, 0.16);
+/// let g2: f64 = brdf::g2_ggx(l, v, alpha);
+/// assert!((g2 - 0.985378635485).abs() < 1e-12);
+/// assert!((g2 - 4.0 * l * v * brdf::v_ggx(l, v, alpha)).abs() < 1e-15);
+/// ```
 #[inline(always)]
 pub fn g2_ggx<R: Real>(n_dot_l: R, n_dot_v: R, alpha: R) -> R {
     lit::<R>(1.0) / (lit::<R>(1.0) + (lambda_ggx(n_dot_l, alpha) + lambda_ggx(n_dot_v, alpha)))
@@ -363,10 +469,23 @@ const G2_GGX: Term = entry!(
 }")
 );
 
-/// Separable G₂ of GGX: G₁(l) G₁(v), masking and shadowing as if independent.
+/// G₂ of GGX as if masking and shadowing had nothing to do with one another.
 ///
-/// Walter et al. 2007, eq. 23; Heitz 2014, eq. 98. Never above [`g2_ggx`]; their ratio is
-/// 1 − (1 − G₁(l))(1 − G₁(v)).
+/// ```text
+/// G₂ = G₁(l) G₁(v)
+/// ```
+///
+/// - *Source*: Walter et al. 2007, eq. 23; Heitz 2014, eq. 98.
+/// - *Arguments*: `n_dot_l` N·L in [0, 1]; `n_dot_v` N·V in [0, 1]; `alpha` α = roughness² in [0,
+///   1].
+/// - *Value*: 0 to 1, never above [`g2_ggx`]; their ratio is 1 − (1 − G₁(l))(1 − G₁(v)).
+///   Reciprocal.
+/// - *Outside*: at or below the horizon 0; a cosine above 1 counts as 1; only α² counts, any α ≥
+///   0.
+/// - *Error*: 9.5 ulp in f32, 8.3 in f64.
+/// - *Right and wrong*: a facet that l sees is likely to be high, and so to be seen by v: too
+///   dark, most of all where the surface is rough and both graze. Right where one of the two looks
+///   along the normal.
 #[inline(always)]
 pub fn g2_ggx_separable<R: Real>(n_dot_l: R, n_dot_v: R, alpha: R) -> R {
     g1_ggx(n_dot_l, alpha) * g1_ggx(n_dot_v, alpha)
@@ -383,10 +502,20 @@ const G2_GGX_SEPARABLE: Term = entry!(
     needs: ["g1_ggx"]
 );
 
-/// Hammon's approximation of G₂: 2 N·L N·V / lerp(2 N·L N·V, N·L + N·V, α).
+/// Hammon's approximation of G₂ of GGX, without a root.
 ///
-/// Hammon 2017 (GDC). Never above [`g2_ggx`], equal at α = 0 and 1 and where a cosine is 1;
-/// up to 29 % below it for smooth surfaces at grazing angles.
+/// ```text
+/// G₂ ≈ 2 N·L N·V / lerp(2 N·L N·V, N·L + N·V, α)
+/// ```
+///
+/// - *Source*: Hammon 2017 (GDC).
+/// - *Arguments*: `n_dot_l` N·L in [0, 1]; `n_dot_v` N·V in [0, 1]; `alpha` α = roughness² in [0,
+///   1].
+/// - *Value*: 0 to 1. Reciprocal.
+/// - *Outside*: at or below the horizon 0; a cosine above 1 counts as 1; α is brought into [0, 1].
+/// - *Error*: 4.4 ulp of the approximation in f32, 4.1 in f64.
+/// - *Right and wrong*: never above [`g2_ggx`], equal at α = 0 and 1 and where a cosine is 1; up
+///   to 29 % (1 − 1/√2) below it for smooth surfaces at grazing angles.
 #[inline(always)]
 pub fn g2_ggx_hammon<R: Real>(n_dot_l: R, n_dot_v: R, alpha: R) -> R {
     above_horizon(n_dot_l, n_dot_v, |l, v| {
@@ -413,9 +542,19 @@ const G2_GGX_HAMMON: Term = entry!(
 }")
 );
 
-/// Height-correlated G₂ of Beckmann: 1/(1 + Λ(l) + Λ(v)).
+/// G₂ of Beckmann, masking and shadowing, correlated through the height of the facet.
 ///
-/// Heitz 2014, eq. 99 with 66. Range 0 to 1.
+/// ```text
+/// G₂ = 1 / (1 + Λ(l) + Λ(v))
+/// ```
+///
+/// - *Source*: Heitz 2014, eq. 99 with 66.
+/// - *Arguments*: `n_dot_l` N·L in [0, 1]; `n_dot_v` N·V in [0, 1]; `alpha` α = roughness² in [0,
+///   1].
+/// - *Value*: 0 to 1. Reciprocal.
+/// - *Outside*: at or below the horizon 0; a cosine above 1 counts as 1; only α² counts, any α ≥
+///   0.
+/// - *Error*: 11.0 ulp in f32, 10.8 in f64.
 pub fn g2_beckmann<R: Real>(n_dot_l: R, n_dot_v: R, alpha: R) -> R {
     lit::<R>(1.0)
         / (lit::<R>(1.0) + (lambda_beckmann(n_dot_l, alpha) + lambda_beckmann(n_dot_v, alpha)))
@@ -432,11 +571,28 @@ const G2_BECKMANN: Term = entry!(
     needs: ["lambda_beckmann"]
 );
 
-/// Visibility of GGX, height-correlated: V = G₂/(4 N·L N·V)
-/// = 0.5 / (N·L sqrt(α² + (1 − α²)(N·V)²) + N·V sqrt(α² + (1 − α²)(N·L)²)).
+/// Visibility V of GGX: G₂ of [`g2_ggx`], already divided by 4 N·L N·V.
 ///
-/// Heitz 2014, eq. 99; in this form Lagarde and de Rousiers 2014, listing 2. Range 0 to +∞;
-/// finite on the horizon, 1/(2 α N·L) where N·V = 0.
+/// ```text
+/// V = G₂ / (4 N·L N·V)
+///   = 0.5 / (N·L sqrt(α² + (1 − α²)(N·V)²) + N·V sqrt(α² + (1 − α²)(N·L)²))
+/// ```
+///
+/// - *Source*: Heitz 2014, eq. 99; in this form Lagarde and de Rousiers 2014, listing 2.
+/// - *Arguments*: `n_dot_l` N·L in [0, 1]; `n_dot_v` N·V in [0, 1]; `alpha` α = roughness² in [0,
+///   1].
+/// - *Value*: 1/4 at normal incidence; 1/(2 α N·L) where N·V = 0; +∞ where both are 0. Reciprocal.
+///   The BRDF is D V F: do not divide again.
+/// - *Outside*: 0 below the horizon; on it the limit; a cosine above 1 counts as 1; only α²
+///   counts, any α ≥ 0.
+/// - *Error*: 6.3 ulp in f32, 5.9 in f64.
+///
+/// sqrt(α² + (1 − α²) c²) is computed as sqrt(c² + α² (1 − c)(1 + c)), without underflow.
+///
+/// ```
+/// let v: f64 = brdf::v_ggx(0.8, 0.6, 0.16); // N·L, N·V, α
+/// assert!((v - 0.513218039315).abs() < 1e-12);
+/// ```
 #[inline(always)]
 pub fn v_ggx<R: Real>(n_dot_l: R, n_dot_v: R, alpha: R) -> R {
     if n_dot_l < lit(0.0) || n_dot_v < lit(0.0) {
@@ -467,10 +623,19 @@ const V_GGX: Term = entry!(
 }")
 );
 
-/// Visibility of GGX, separable: G₁(l) G₁(v)/(4 N·L N·V)
-/// = 1 / ((N·L + sqrt(…)) (N·V + sqrt(…))).
+/// Visibility of GGX with the separable G₂ of [`g2_ggx_separable`].
 ///
-/// Walter et al. 2007, eq. 23 and 34.
+/// ```text
+/// V = G₁(l) G₁(v) / (4 N·L N·V) = 1 / ((N·L + sqrt(…)) (N·V + sqrt(…)))
+/// ```
+///
+/// - *Source*: Walter et al. 2007, eq. 23 and 34.
+/// - *Arguments*: `n_dot_l` N·L in [0, 1]; `n_dot_v` N·V in [0, 1]; `alpha` α = roughness² in [0,
+///   1].
+/// - *Value*: 0 to +∞, never above [`v_ggx`]. Reciprocal.
+/// - *Outside*: 0 below the horizon; on it the limit; a cosine above 1 counts as 1; only α²
+///   counts, any α ≥ 0.
+/// - *Error*: 9.5 ulp in f32, 8.6 in f64.
 #[inline(always)]
 pub fn v_ggx_separable<R: Real>(n_dot_l: R, n_dot_v: R, alpha: R) -> R {
     if n_dot_l < lit(0.0) || n_dot_v < lit(0.0) {
@@ -496,9 +661,19 @@ const V_GGX_SEPARABLE: Term = entry!(
 }")
 );
 
-/// Hammon's visibility: 0.5 / lerp(2 N·L N·V, N·L + N·V, α).
+/// Hammon's approximation of the visibility of GGX.
 ///
-/// Hammon 2017 (GDC). [`g2_ggx_hammon`] over 4 N·L N·V.
+/// ```text
+/// V ≈ 0.5 / lerp(2 N·L N·V, N·L + N·V, α)
+/// ```
+///
+/// - *Source*: Hammon 2017 (GDC).
+/// - *Arguments*: `n_dot_l` N·L in [0, 1]; `n_dot_v` N·V in [0, 1]; `alpha` α = roughness² in [0,
+///   1].
+/// - *Value*: 0 to +∞; [`g2_ggx_hammon`] over 4 N·L N·V. Reciprocal.
+/// - *Outside*: 0 below the horizon; on it the limit; a cosine above 1 counts as 1; α is brought
+///   into [0, 1].
+/// - *Error*: 3.7 ulp of the approximation in f32, 3.5 in f64; it is up to 29 % too dark.
 #[inline(always)]
 pub fn v_ggx_hammon<R: Real>(n_dot_l: R, n_dot_v: R, alpha: R) -> R {
     if n_dot_l < lit(0.0) || n_dot_v < lit(0.0) {

@@ -1,8 +1,15 @@
 //! GGX from vectors in world space, for callers without a tangent frame.
 //!
-//! World-space vectors are ill-conditioned: half a unit in the last place of n, l or v changes
-//! D of a smooth surface by thousands of units. What is here is no worse than that; where the
-//! frame is known, [`crate::Ggx`] is better. All vectors are expected to have length 1.
+//! | symbol | function | source |
+//! |---|---|---|
+//! | D | [`d_ggx_world`] | Walter et al. 2007, eq. 33 |
+//! | D V F cos θ | [`specular_ggx_world`] | Walter et al. 2007, eq. 20; Heitz 2014, eq. 99 |
+//!
+//! World-space vectors are ill-conditioned: half a unit in the last place of n, l or v changes D of a smooth
+//! surface by thousands of units. What is here is not worse than that: `lobe stress` holds its error to
+//! the bound of the tangent frame or to what half a unit in each argument changes, whichever is more, and
+//! finds 0.31 of that change for D and 0.71 for the whole. Where the frame is known, [`crate::Ggx`] is
+//! better, because its arguments are. All vectors are expected to have length 1.
 
 use crate::ggx::Fresnel;
 use crate::real::{Real, lit, plus, quotient, squared, times, zero_unless_nan};
@@ -10,11 +17,29 @@ use crate::smith::projected;
 use crate::vector::{Vector, tamed};
 use std::f64::consts::FRAC_1_PI;
 
-/// D of GGX from a normal, a light and a view in world space: D = (α m/(π^½ (s + α² c²)))²,
-/// c = n·(l + v), s = |n × (l + v)|², m = s + c².
+/// D of GGX from a normal, a light and a view in world space.
 ///
-/// Walter et al. 2007, eq. 33. In 1/sr; 0 below the horizon. Each component of the cross
-/// product is a difference of products kept exactly.
+/// ```text
+/// D = (α m/t)²/π,    c = n·(l + v), s = |n × (l + v)|², m = s + c², t = s + α² c²
+/// ```
+///
+/// - *Source*: Walter et al. 2007, eq. 33.
+/// - *Arguments*: `n`, `l`, `v` of length 1; `alpha` α in [0, 1].
+/// - *Value*: 1/sr.
+/// - *Outside*: 0 below the horizon and where l = −v; for other lengths the value is that of the
+///   directions wherever the squares would overflow or vanish.
+/// - *Error*: 5.3 ulp in f32, 5.0 in f64; where the arguments are worse, 0.31 of what half a unit
+///   in each of them changes.
+///
+/// Each component of the cross product is a difference of products kept exactly, and both sums of
+/// the quotient keep their rounding errors.
+///
+/// ```
+/// let (n, l, v) = ([0.0, 0.0, 1.0], [0.6, 0.0, 0.8], [-0.6, 0.0, 0.8]);
+/// // The mirror direction: the peak.
+/// let d: f64 = brdf::d_ggx_world(n, l, v, 0.16);
+/// assert!((d - brdf::d_ggx(1.0, 0.16)).abs() < 1e-12);
+/// ```
 pub fn d_ggx_world<R: Real>(
     n: impl Into<Vector<R>>,
     l: impl Into<Vector<R>>,
@@ -92,11 +117,20 @@ fn d_of_half<R: Real>(n: Vector<R>, h: [(R, R); 3], alpha: R) -> R {
     q * q * lit(FRAC_1_PI)
 }
 
-/// BRDF times N·L of a GGX surface of some material from vectors in world space, D V F cos θ,
-/// in 1/sr: [`d_ggx_world`], [`crate::v_ggx`] and [`Fresnel::eval`].
+/// BRDF times N·L of a GGX surface of some material from vectors in world space.
 ///
-/// Walter et al. 2007, eq. 20; Heitz 2014, eq. 99. 0 where the light or the view is not above
-/// the horizon.
+/// ```text
+/// f cos θ = D V F N·L
+/// ```
+///
+/// - *Source*: Walter et al. 2007, eq. 20; Heitz 2014, eq. 99: [`d_ggx_world`], [`crate::v_ggx`]
+///   and [`Fresnel::eval`].
+/// - *Arguments*: `n`, `l`, `v` of length 1; `alpha` α in [0, 1]; `fresnel` what the facets are
+///   made of.
+/// - *Value*: 1/sr, red, green and blue.
+/// - *Outside*: 0 where the light or the view is not above the horizon.
+/// - *Error*: 19.0 ulp in f32, 18.6 in f64; where the arguments are worse, 0.71 of what half a
+///   unit in each of them changes.
 pub fn specular_ggx_world<R: Real>(
     n: impl Into<Vector<R>>,
     l: impl Into<Vector<R>>,
