@@ -275,6 +275,22 @@ fn paint(
     .map_err(|error| error.to_string())
 }
 
+/// The picture on a transparent ground of that size, where it nearly fills it: to be scaled costs
+/// more than to be drawn.
+fn on_ground(image: RgbaImage, width: u32, height: u32) -> RgbaImage {
+    let (columns, rows) = image.dimensions();
+    let fills = 10 * columns >= 9 * width || 10 * rows >= 9 * height;
+    if columns > width || rows > height || !fills {
+        return image;
+    }
+    let mut ground = RgbaImage::new(width, height);
+    let pixels = image.chunks_exact(4 * columns as usize);
+    for (to, from) in ground.chunks_exact_mut(4 * width as usize).zip(pixels) {
+        to[..from.len()].copy_from_slice(from);
+    }
+    ground
+}
+
 /// [`paint`] for a picture that takes the place of the one before, the `count`th of them. Kitty
 /// keeps every picture under its number: here two take turns, so that it keeps no more.
 pub fn paint_again(
@@ -286,13 +302,25 @@ pub fn paint_again(
 ) -> Result<Drawn, String> {
     /// Far from the numbers that are drawn by chance, or at least not likely to meet one.
     const NUMBER: u32 = 0x6c6f_6200;
-    if picker.protocol_type() != ProtocolType::Kitty {
+    if picker.protocol_type() == ProtocolType::Halfblocks {
         return paint(picker, colours, pixels, area);
     }
     let (columns, rows, rgba) = pixels;
     let image = RgbaImage::from_raw(columns, rows, rgba).ok_or("the picture has the wrong size")?;
-    let image = DynamicImage::ImageRgba8(image);
-    let image = Resize::Scale(None).resize(&image, picker.font_size(), area, None);
+    let font = picker.font_size();
+    let [width, height] = [(area.width, font.width), (area.height, font.height)]
+        .map(|(cells, pixels)| u32::from(cells) * u32::from(pixels));
+    let image = DynamicImage::ImageRgba8(on_ground(image, width, height));
+    let scale = Resize::Scale(None);
+    if picker.protocol_type() != ProtocolType::Kitty {
+        return SlicedProtocol::new_with_resize(picker, image, area, scale)
+            .map(Drawn::Pixels)
+            .map_err(|error| error.to_string());
+    }
+    let image = match (image.width(), image.height()) == (width, height) {
+        true => image,
+        false => scale.resize(&image, font, area, None),
+    };
     Kitty::new(image, area, NUMBER + count % 2, false, false)
         .map(|kitty| Drawn::Pixels(SlicedProtocol::Kitty(kitty)))
         .map_err(|error| error.to_string())
@@ -340,6 +368,20 @@ fn shades(image: &RgbaImage, width: u16, height: u16) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_picture_that_nearly_fills_its_ground_is_not_scaled() {
+        let grey = image::Rgba([90, 90, 90, 255]);
+        let image = || RgbaImage::from_pixel(95, 20, grey);
+        let ground = on_ground(image(), 100, 24);
+        assert_eq!(ground.dimensions(), (100, 24));
+        let covered = ground.enumerate_pixels();
+        let covered = covered.filter(|(x, y, pixel)| (*x < 95 && *y < 20) == (**pixel == grey));
+        assert_eq!(covered.count(), 100 * 24);
+        for (width, height) in [(90, 24), (200, 100)] {
+            assert_eq!(on_ground(image(), width, height).dimensions(), (95, 20));
+        }
+    }
 
     #[test]
     fn letters_stand_for_brightness_and_for_the_sign_of_the_error() {

@@ -130,12 +130,17 @@ impl Play {
         picker: &Picker,
         palette: Palette,
     ) -> Result<(Frame, Drawn), String> {
-        let cell = match picker.protocol_type() {
+        let font = picker.font_size();
+        let size = match picker.protocol_type() {
             // Half-blocks have two pixels a cell; twice that, to be averaged.
-            ProtocolType::Halfblocks => 2,
-            _ => u32::from(picker.font_size().width),
+            ProtocolType::Halfblocks => u32::from(area.width) * 2 / 3,
+            // Three panels and two gaps, each of which is a 32nd of one: it need not be scaled.
+            _ => {
+                let width = u32::from(area.width) * u32::from(font.width);
+                (width * 16 / 49).min(u32::from(area.height) * u32::from(font.height))
+            }
         };
-        let size = (u32::from(area.width) * cell / 3).clamp(64, MOST);
+        let size = size.clamp(64, MOST);
         let mut frame = self
             .preview
             .draw(&self.dials.scene(), size, self.dials.stops())
@@ -224,7 +229,7 @@ impl Play {
 fn room_for(picker: &Picker) -> u16 {
     match picker.protocol_type() {
         ProtocolType::Halfblocks => u16::MAX,
-        _ => (3 * MOST / u32::from(picker.font_size().width.max(1))) as u16,
+        _ => (MOST * 49 / 16 / u32::from(picker.font_size().width.max(1))) as u16,
     }
 }
 
