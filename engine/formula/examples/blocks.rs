@@ -56,18 +56,77 @@ impl Formula for Cheap {
     }
 }
 
-/// The lobe from the core's functions, as fingerprints are written.
-struct Calls;
+/// The core's three functions times the cosine.
+#[inline(always)]
+fn lobe<R: Real>([l, v, h]: [R; 3], alpha: R, f0: R, v_dot_h: R) -> R {
+    brdf::d_ggx(h, alpha) * brdf::v_ggx(l, v, alpha) * brdf::f_schlick(f0, v_dot_h) * l
+}
 
-impl Formula for Calls {
-    const NAME: &'static str = "calls";
+/// The right side of a lesson's fingerprint.
+struct Right;
+
+impl Formula for Right {
+    const NAME: &'static str = "right";
+    const TEXT: &'static str = "d_ggx() * v_ggx() * f_schlick(v_dot_h = n_dot_h) * n_dot_l";
+    #[inline(always)]
+    fn at<R: Real>(l: R, v: R, h: R, roughness: R, f0: R) -> R {
+        lobe([l, v, h], roughness * roughness, f0, h)
+    }
+}
+
+/// Divided twice.
+struct Twice;
+
+impl Formula for Twice {
+    const NAME: &'static str = "twice";
     const TEXT: &'static str =
         "d_ggx() * v_ggx() * f_schlick(v_dot_h = n_dot_h) * n_dot_l / (4 * n_dot_l * n_dot_v)";
     #[inline(always)]
     fn at<R: Real>(l: R, v: R, h: R, roughness: R, f0: R) -> R {
-        let alpha = roughness * roughness;
-        brdf::d_ggx(h, alpha) * brdf::v_ggx(l, v, alpha) * brdf::f_schlick(f0, h) * l
-            / (R::of(4.0) * l * v)
+        lobe([l, v, h], roughness * roughness, f0, h) / (R::of(4.0) * l * v)
+    }
+}
+
+/// Roughness where alpha belongs.
+struct Unsquared;
+
+impl Formula for Unsquared {
+    const NAME: &'static str = "unsquared";
+    const TEXT: &'static str = "d_ggx(alpha = roughness) * v_ggx(alpha = roughness) \
+        * f_schlick(v_dot_h = n_dot_h) * n_dot_l";
+    #[inline(always)]
+    fn at<R: Real>(l: R, v: R, h: R, roughness: R, f0: R) -> R {
+        lobe([l, v, h], roughness, f0, h)
+    }
+}
+
+/// Another cosine in the Fresnel term.
+struct Cosine;
+
+impl Formula for Cosine {
+    const NAME: &'static str = "cosine";
+    const TEXT: &'static str = "d_ggx() * v_ggx() * f_schlick(v_dot_h = n_dot_v) * n_dot_l";
+    #[inline(always)]
+    fn at<R: Real>(l: R, v: R, h: R, roughness: R, f0: R) -> R {
+        lobe([l, v, h], roughness * roughness, f0, v)
+    }
+}
+
+/// V written out, as the lesson about it does.
+struct WrittenOut;
+
+impl Formula for WrittenOut {
+    const NAME: &'static str = "V written";
+    const TEXT: &'static str = "d_ggx() * 0.5 \
+        / (n_dot_l * sqrt(roughness^4 + (1 - roughness^4) * n_dot_v^2) \
+        + n_dot_v * sqrt(roughness^4 + (1 - roughness^4) * n_dot_l^2)) \
+        * f_schlick(v_dot_h = n_dot_h) * n_dot_l";
+    #[inline(always)]
+    fn at<R: Real>(l: R, v: R, h: R, roughness: R, f0: R) -> R {
+        let a2 = roughness * roughness * (roughness * roughness);
+        let s = |x: R| (a2 + (R::of(1.0) - a2) * (x * x)).sqrt();
+        let below = l * s(v) + v * s(l);
+        brdf::d_ggx(h, roughness * roughness) * R::of(0.5) / below * brdf::f_schlick(f0, h) * l
     }
 }
 
@@ -194,12 +253,18 @@ fn measure<F: Formula, R: Precision>() {
     }
 }
 
+fn both<F: Formula>() {
+    measure::<F, f64>();
+    measure::<F, f32>();
+}
+
 fn main() {
     println!("formula      in  on           block   by hand   ratio");
-    measure::<Textbook, f64>();
-    measure::<Textbook, f32>();
-    measure::<Cheap, f64>();
-    measure::<Cheap, f32>();
-    measure::<Calls, f64>();
-    measure::<Calls, f32>();
+    both::<Textbook>();
+    both::<Right>();
+    both::<Twice>();
+    both::<Unsquared>();
+    both::<Cosine>();
+    both::<WrittenOut>();
+    both::<Cheap>();
 }
