@@ -1,4 +1,14 @@
 //! The registry: every formula as data, found by its name.
+//!
+//! [`terms()`] hands out each scalar formula with its arguments, their ranges and units, its source, how it
+//! is written, its value in both precisions, at one point and at many, and its WGSL twin.
+//!
+//! ```
+//! let term = brdf::term("d_ggx").expect("a term of that name");
+//! assert_eq!(term.params[1].name, "alpha");
+//! assert_eq!((term.f64)(&[1.0, 1.0]), std::f64::consts::FRAC_1_PI);
+//! assert!(term.wgsl.is_some_and(|code| code.starts_with("fn lobe_d_ggx(")));
+//! ```
 
 use crate::batch::Isa;
 use std::sync::LazyLock;

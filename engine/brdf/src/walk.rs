@@ -1,16 +1,48 @@
 //! Random walks on the microsurface: what the closed forms approximate.
 //!
-//! A ray that enters from `v` moves between the facets of Smith's surface until it leaves.
-//! Smith's surface has no memory, so that one number is enough for where the ray is: the
-//! optical depth x = −ln C₁(h) under the top, C₁ the share of the surface below the height h.
-//! With e drawn from the exponential distribution, a ray going up rises by e/Λ(w) and is out
-//! where x ≤ 0; a ray going down sinks by e/(1 + Λ(−w)). No height distribution is needed: it
-//! cancels. At each hit the facet's normal is drawn from those visible against the ray.
+//! | item | what |
+//! |---|---|
+//! | [`walk()`] | one ray between mirrors, diffuse or coated facets |
+//! | [`walk_mirrors`] | many rays between mirrors, from one view |
+//! | [`Split`] | where the light of one view goes: mirrored, once inside, more often |
 //!
-//! Heitz, Hanika, d'Eon and Dachsbacher 2016; Hammon 2017, appendix, whose slides draw the
-//! normal from D alone: that is not the distribution of what a ray meets. `tests/hammon.rs`
-//! holds what follows: with visible normals light takes the same way back and single
-//! scattering is ∫ D G₂, with those of the slides neither.
+//! A ray that enters from `v` moves between the facets of Smith's surface until it leaves. Smith's surface
+//! has no memory, so that one number is enough for where the ray is: the optical depth x = −ln C₁(h) under
+//! the top, C₁ the share of the surface below the height h.
+//!
+//! ```text
+//! e  from the exponential distribution
+//! up, along w:    x ← x − e/Λ(w),            out where x ≤ 0
+//! down, along w:  x ← x + e/(1 + Λ(−w))
+//! at each hit:    a normal of those visible against the ray, density ∝ D(m) max(−w·m, 0)
+//! ```
+//!
+//! No height distribution is needed: it cancels. With mirrors all light leaves again; its share after one
+//! hit is [`crate::albedo_ggx`].
+//!
+//! Heitz, Hanika, d'Eon and Dachsbacher 2016; Hammon 2017, appendix, whose slides draw the normal from D
+//! alone: that is not the distribution of what a ray meets. `tests/hammon.rs` holds what follows: with
+//! visible normals light takes the same way back and single scattering is ∫ D G₂, with those of the
+//! slides neither.
+//!
+//! ```
+//! use brdf::{Ggx, walk::{Facets, walk}};
+//! // Any source of numbers in (0, 1); this one is no good for more than an example.
+//! let mut seed = 1u64;
+//! let mut next = || {
+//!     seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+//!     ((seed >> 11) as f64 + 0.5) / (1u64 << 53) as f64
+//! };
+//! let v = [0.6, 0.0, 0.8];
+//! let (mut once, walks) = (0, 20_000);
+//! for _ in 0..walks {
+//!     let exit = walk(Ggx::new(0.5), Facets::Mirror, v, &mut next).expect("not given up");
+//!     assert_eq!(exit.weight, 1.0); // mirrors keep all light
+//!     once += i32::from(exit.bounces == 1);
+//! }
+//! let share = f64::from(once) / f64::from(walks);
+//! assert!((share - brdf::albedo_ggx(0.8, 0.5)).abs() < 0.02);
+//! ```
 
 use crate::batch::{Isa, Level, dispatch, ln_unit};
 use crate::ggx::Ggx;

@@ -1,5 +1,7 @@
 //! Arguments nobody should pass: what comes out is still what the documentation says.
 
+use brdf::batch::{self, Isa, Samples};
+use brdf::glam::Vec3;
 use brdf::{Term, terms, vector_terms};
 
 const ODD: [f64; 16] = [
@@ -128,5 +130,52 @@ fn integrals_take_anything() {
                 break;
             }
         }
+    }
+}
+
+/// Lights drawn by a batch: finite in its domain, and out of it at least no panic and no harm to the
+/// neighbours.
+#[test]
+fn batches_draw_from_anything() {
+    let u: Vec<f32> = [0.0, 1e-45, 1e-7, 0.25, 0.5, 0.75, 0.999_999_94].to_vec();
+    let pairs: Vec<(f32, f32)> = u
+        .iter()
+        .flat_map(|&a| u.iter().map(move |&b| (a, b)))
+        .collect();
+    let (mut u0, mut u1): (Vec<f32>, Vec<f32>) = pairs.into_iter().unzip();
+    let draw = |isa, v: Vec3, alpha: f32, u: [&[f32]; 2]| {
+        let mut all = [0; 5].map(|_| vec![0.0f32; u[0].len()]);
+        let [x, y, z, pdf, weight] = &mut all;
+        let l = [x, y, z].map(|column| column.as_mut_slice());
+        batch::sample(isa, v, alpha, u, Samples { l, pdf, weight });
+        all
+    };
+    for isa in Isa::available() {
+        for alpha in [1e-4f32, 0.01, 0.3, 1.0] {
+            for z in [1e-6f32, 1e-3, 0.1, 0.7, 1.0] {
+                let v = Vec3::new(((1.0 - z) * (1.0 + z)).sqrt(), 0.0, z);
+                let all = draw(isa, v, alpha, [&u0, &u1]);
+                for (column, values) in all.iter().enumerate() {
+                    let bad = values.iter().position(|x| !x.is_finite());
+                    let at = bad.map(|i| (u0[i], u1[i]));
+                    assert_eq!(at, None, "{} {alpha} {z}: column {column}", isa.name());
+                }
+                assert!(all[3..].iter().flatten().all(|&x| x >= 0.0), "{alpha} {z}");
+            }
+        }
+        let odd = ODD.map(|x| x as f32);
+        for x in odd {
+            for alpha in odd {
+                draw(isa, Vec3::new(x, 0.3, alpha), alpha, [&u0, &u1]);
+            }
+        }
+    }
+    // One number that is none harms its own light only.
+    let before = draw(Isa::best(), Vec3::new(0.6, 0.0, 0.8), 0.3, [&u0, &u1]);
+    (u0[5], u1[20]) = (f32::NAN, f32::NAN);
+    let after = draw(Isa::best(), Vec3::new(0.6, 0.0, 0.8), 0.3, [&u0, &u1]);
+    for (before, after) in before.iter().zip(&after) {
+        let changed = (0..before.len()).filter(|&i| before[i].to_bits() != after[i].to_bits());
+        assert!(changed.into_iter().all(|i| i == 5 || i == 20));
     }
 }

@@ -1,14 +1,46 @@
 //! Many evaluations at once: structure of arrays in, slices out.
 //!
-//! Every loop is written once and compiled for the baseline, for AVX2 with FMA and for
-//! AVX-512; [`Isa::best`] is what this machine can run. Nothing is left to the compiler's luck:
-//! the registers are named, and square roots and quotients of the next numbers are under way
-//! while those of the last are waited for. What is the same for all evaluations
-//! is given as [`Input::All`] and leaves the loop: the variants are chosen once, outside.
+//! | what | function | one at a time |
+//! |---|---|---|
+//! | D V F cos θ from cosines | [`specular`] | [`crate::d_ggx`], [`crate::v_ggx`], [`crate::f_schlick`] |
+//! | D V F cos θ from vectors | [`specular_vectors`], [`specular_vec3`] | [`crate::Specular::eval_cos`] |
+//! | F of a conductor, three colours | [`Conductor`], [`conductor_rgb`] | [`crate::f_conductor`] |
+//! | lights drawn, density, weight | [`sample`] | [`crate::Ggx::sample`] |
+//! | random walks between mirrors | [`crate::walk::walk_mirrors`] | [`crate::walk::walk`] |
+//! | any term | [`crate::Term::f32_block`], [`crate::Term::f64_block`] | its function |
+//! | the machine's limit | [`divide`], [`square_root`], [`multiply`] | |
 //!
-//! The formulas are the stable ones of the terms without their care for denormal numbers:
-//! cosines are expected in [0, 1] and α in [1e-4, 1]. A cosine below 0 (`n_dot_l`,
-//! `n_dot_v`) gives 0. Slices may differ in length; the shortest counts.
+//! Every loop is written once and compiled for the baseline, for AVX2 with FMA and for AVX-512;
+//! [`Isa::best`] is what this machine can run. Nothing is left to the compiler's luck: the registers are
+//! named, and square roots and quotients of the next numbers are under way while those of the last are
+//! waited for. What is the same for all evaluations is given as [`Input::All`] and leaves the loop: the
+//! variants are chosen once, outside.
+//!
+//! ```
+//! use brdf::batch::{Cosines, Input, Isa, specular};
+//!
+//! let (l, h, u) = ([0.8, 0.5, -0.1], [0.95, 0.7, 0.6], [0.9, 0.8, 0.7]);
+//! let input = Cosines {
+//!     n_dot_l: &l,
+//!     n_dot_v: Input::All(0.6),
+//!     n_dot_h: &h,
+//!     v_dot_h: &u,
+//!     alpha: Input::All(0.16),
+//!     f0: Some(Input::All(0.04)),
+//! };
+//! let mut out = [0.0; 3];
+//! specular(Isa::best(), &input, &mut out);
+//! let one = brdf::d_ggx(0.95, 0.16) * brdf::v_ggx(0.8, 0.6, 0.16) * brdf::f_schlick(0.04, 0.9) * 0.8;
+//! assert!((out[0] - one).abs() < 1e-6 * one);
+//! assert_eq!(out[2], 0.0); // the light is below the horizon
+//! ```
+//!
+//! The formulas are the stable ones of the terms without their care for what is out of range. Inside it,
+//! cosines and heights in [−1, 1], α in [1e-4, 1], f0 in [0, 1] and vectors of length 1, denormal cosines
+//! and l = −v included, results are finite wherever single precision can hold them, and a cosine or height
+//! (`n_dot_l`, `n_dot_v`, z) at or below 0 gives 0. Outside it (α = 0, infinite arguments, lengths far from 1)
+//! a result may be anything, NaN included, but only its own: nothing panics, and no element depends on
+//! another. Slices may differ in length; the shortest counts, and what is longer is left as it was.
 //!
 //! Blocks of a few thousand elements stay in the cache; beyond it, memory is the limit.
 

@@ -22,8 +22,17 @@ pub struct Cosines<'a> {
     pub f0: Option<Input<'a>>,
 }
 
-/// D V F cos θ_l of GGX with Schlick's reflectance, see [`crate::d_ggx`], [`crate::v_ggx`] and
-/// [`crate::f_schlick`].
+/// D V F cos θ of GGX with Schlick's reflectance, from cosines.
+///
+/// ```text
+/// out = D V F N·L
+/// ```
+///
+/// - *Source*: [`crate::d_ggx`], [`crate::v_ggx`], [`crate::f_schlick`].
+/// - *Arguments*: see [`Cosines`]; `out` as long as they are, or shorter.
+/// - *Value*: 1/sr.
+/// - *Outside*: 0 where N·L or N·V is not above 0; see [`crate::batch`].
+/// - *Error*: 18.2 ulp; 16.2 with view, width and f0 the same for all.
 pub fn specular(isa: Isa, input: &Cosines, out: &mut [f32]) {
     dispatch_lanes!(isa, specular_body(input: &Cosines, out: &mut [f32]))
 }
@@ -266,9 +275,19 @@ pub struct Vectors<'a> {
     pub f0: Option<Input<'a>>,
 }
 
-/// D V F cos θ_l of GGX with Schlick's reflectance from vectors, accurate for smooth surfaces.
+/// D V F cos θ of GGX with Schlick's reflectance, from vectors: accurate for smooth surfaces.
 ///
-/// See [`crate::Specular::eval_cos`].
+/// ```text
+/// out = D V F N·L
+/// ```
+///
+/// - *Source*: [`crate::Specular::eval_cos`].
+/// - *Arguments*: see [`Vectors`]; `out` as long as they are, or shorter.
+/// - *Value*: 1/sr.
+/// - *Outside*: 0 where the light or the view is not above the horizon; see [`crate::batch`].
+/// - *Error*: 29 ulp with FMA, 33 without (20.9 of a call): for speed its sums do not keep their
+///   rounding errors, which the fifth power counts five times where l is near −v. Of random pairs
+///   one in a thousand is off by more than 11.
 pub fn specular_vectors(isa: Isa, input: &Vectors, out: &mut [f32]) {
     dispatch_lanes!(isa, vectors_body(input: &Vectors, out: &mut [f32]))
 }
@@ -421,6 +440,10 @@ impl<S: Lanes, L: Directions, V: Directions, A: Source, F: Source> Kernel<S, 5>
 }
 
 /// [`specular_vectors`] for arrays of structures: the same α and f0 for all.
+///
+/// - *Arguments*: `l`, `v` directions of length 1 in the tangent frame; `alpha` α in [1e-4, 1];
+///   `f0` the reflectance at normal incidence, `None` for F = 1.
+/// - *Error*: that of [`specular_vectors`], to the last bit.
 pub fn specular_vec3(
     isa: Isa,
     l: &[Vec3],

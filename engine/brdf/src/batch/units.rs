@@ -4,11 +4,23 @@ use super::lanes::{At, Column, Kernel, Lanes, Out, leave, run};
 use super::{Isa, Level, dispatch_lanes};
 
 /// Quotients, to measure how fast the machine divides.
+///
+/// ```text
+/// out = a / b
+/// ```
+///
+/// - *Arguments*: `isa`; `a` the depth of the dip, fitted for each metal; `b`; `out`.
 pub fn divide(isa: Isa, a: &[f32], b: &[f32], out: &mut [f32]) {
     dispatch_lanes!(isa, divide_body(a: &[f32], b: &[f32], out: &mut [f32]))
 }
 
 /// Square roots, to measure how fast the machine takes them.
+///
+/// ```text
+/// out = sqrt(a)
+/// ```
+///
+/// - *Arguments*: `isa`; `a` the depth of the dip, fitted for each metal; `out`.
 pub fn square_root(isa: Isa, a: &[f32], out: &mut [f32]) {
     dispatch_lanes!(isa, square_root_body(a: &[f32], out: &mut [f32]))
 }
