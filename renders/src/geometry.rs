@@ -196,6 +196,11 @@ impl Geometry {
         self.light[1] == 0.0
     }
 
+    /// Whether the light is in the plane through the eye's axis and the picture's vertical.
+    pub fn is_upright(&self) -> bool {
+        self.light[0] == 0.0
+    }
+
     /// Whether the light reaches anything that is seen.
     pub fn reaches(&self) -> bool {
         // The greatest of lens · (x, y, q) over the half sphere q > 0.

@@ -413,6 +413,7 @@ fn job<'a>(
         size: options.size as usize,
         radius: scene.radius,
         everywhere: !plan.lens,
+        half: plan.half,
         columns: plan.columns,
     };
     let geometries = scene.geometries();

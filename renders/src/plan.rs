@@ -1,6 +1,7 @@
 //! What of a picture must be computed: decided from the formulas, before anything is.
 
 use crate::Fingerprint;
+use crate::geometry::Geometry;
 use crate::own::Own;
 use crate::scene::{VARYING, column};
 use formula::{Expr, Node, Program};
@@ -15,6 +16,8 @@ pub(crate) struct Plan {
     /// Shade the upper half and copy it: with eye and lights in one plane the lower half mirrors
     /// it.
     pub mirror: bool,
+    /// Shade the left half and copy it, where the plane is upright.
+    pub half: bool,
     /// Shade only pixels in the lit and visible part of the sphere.
     pub lens: bool,
     /// Evaluate calls that are constant over the picture beforehand.
@@ -113,11 +116,24 @@ impl Plan {
             .lights
             .iter()
             .all(|&light| geometries[light].is_level());
+        let lit = || self.lights.iter().map(|&light| &geometries[light]);
+        self.half = lit().all(Geometry::is_upright);
+        let lights = if several { "lights" } else { "light" };
         if self.mirror {
-            let lights = if several { "lights" } else { "light" };
             self.explain.push(format!(
                 "{MIRRORED}: with eye and {lights} in the horizontal plane they mirror each other"
             ));
+        }
+        if self.half {
+            self.explain.push(format!(
+                "the right half is copied from the left: with eye and {lights} in the vertical plane they mirror each other"
+            ));
+        }
+        if !self.mirror && !self.half && !several {
+            self.explain.push(
+                "both halves beside the light's direction are shaded, though they mirror each other: the mirror image of a pixel is no pixel unless the light is level or upright"
+                    .to_owned(),
+            );
         }
     }
 

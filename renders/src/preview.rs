@@ -179,10 +179,11 @@ impl Preview {
         if !(MIN_SIZE..=MAX_SIZE).contains(&size) {
             return Err(Error::Size(size));
         }
-        let panel = Panel {
+        let mut panel = Panel {
             size: size as usize,
             radius: scene.radius,
             everywhere: !self.plan.lens,
+            half: false,
             columns,
         };
         let geometries = scene.geometries();
@@ -191,6 +192,7 @@ impl Preview {
             .map(|(geometry, light)| (*geometry, light.weights()))
             .filter(|(geometry, weights)| geometry.reaches() && *weights != [0.0; 3])
             .collect();
+        panel.half = lights.iter().all(|(geometry, _)| geometry.is_upright());
         Ok(Job {
             panel,
             mirror: lights.iter().all(|(geometry, _)| geometry.is_level()),

@@ -17,6 +17,8 @@ pub(crate) struct Panel {
     pub radius: f64,
     /// Shade every pixel, even where nothing can be seen.
     pub everywhere: bool,
+    /// Sample the left half only, the middle column included: the right one is its mirror image.
+    pub half: bool,
     /// The columns of [`VARYING`] to fill at every point; of the others one value is kept.
     pub columns: [bool; VARYING.len()],
 }
@@ -312,13 +314,18 @@ impl Panel {
         samples.start(geometry);
         for row in places.rows() {
             let reach = self.row(geometry, row);
-            let columns = |span: &(f64, f64)| (span.0 as usize)..(span.1 as usize);
+            let end = match self.half {
+                true => self.size.div_ceil(2),
+                false => self.size,
+            };
+            let clip = |at: f64| (at as usize).min(end);
+            let columns = |span: &(f64, f64)| clip(span.0)..clip(span.1);
             let mut next = 0;
             for touched in reach.touched.as_slice().iter().map(columns) {
                 self.unseen(samples, geometry, row, next..touched.start);
                 next = touched.start;
                 for filled in reach.filled.as_slice().iter().map(columns) {
-                    if filled.start < next || filled.end > touched.end {
+                    if filled.is_empty() || filled.start < next || filled.end > touched.end {
                         continue;
                     }
                     for column in next..filled.start {
@@ -335,7 +342,7 @@ impl Panel {
                 }
                 next = touched.end;
             }
-            self.unseen(samples, geometry, row, next..self.size);
+            self.unseen(samples, geometry, row, next..end);
         }
     }
 
@@ -361,16 +368,21 @@ impl Panel {
             let part = |i: usize| i as f64 / EDGE_GRID as f64;
             Line::of(geometry, at(part(i + 1)), at(part(i)))
         });
-        let pixels = |unit: f64| unit * self.outline() + self.size as f64 / 2.0;
-        let clamp = |at: f64| at.clamp(0.0, self.size as f64);
+        // Counted from the nearer side, so that mirrored stretches have mirrored pixels.
+        let (size, middle) = (self.size as f64, self.size as f64 / 2.0);
+        let before = |unit: f64| match unit * self.outline() {
+            at if at <= 0.0 => (middle + at).floor(),
+            at => size - (middle - at).ceil(),
+        };
+        let after = |unit: f64| size - before(-unit);
         let whole = |stretches: &Stretches, outwards: bool| {
             let mut whole = Stretches::default();
             for &(from, to) in stretches.as_slice() {
-                let (from, to) = (clamp(pixels(from)), clamp(pixels(to)));
-                whole.push(match outwards {
-                    true => (from.floor(), to.ceil()),
-                    false => (from.ceil(), to.floor()),
-                });
+                let (from, to) = match outwards {
+                    true => (before(from), after(to)),
+                    false => (after(from), before(to)),
+                };
+                whole.push((from.clamp(0.0, size), to.clamp(0.0, size)));
             }
             whole
         };
@@ -432,9 +444,25 @@ impl Panel {
     ) {
         let before = samples.shares.len();
         let (left, right) = (self.unit(column as f64), self.unit(column as f64 + 1.0));
+        // The right half is walked to the left, as its mirror image is walked to the right: both
+        // sum the same numbers in the same order.
+        let turned = 2 * column >= self.size;
+        let (left, right) = if turned {
+            (-right, -left)
+        } else {
+            (left, right)
+        };
+        let side = if turned { -1.0 } else { 1.0 };
         for (index, line) in reach.lines.iter().enumerate() {
             let rho = line.rho;
-            for &(from, to) in line.lit.as_slice() {
+            let lit = line.lit.as_slice();
+            for place in 0..lit.len() {
+                let (from, to) = if turned {
+                    let (from, to) = lit[lit.len() - 1 - place];
+                    (-to, -from)
+                } else {
+                    lit[place]
+                };
                 let stretch = Stretch {
                     rho,
                     from: from.max(left),
@@ -453,9 +481,9 @@ impl Panel {
                     let known = places.edge((column, row), index, &stretch);
                     known
                         .iter()
-                        .for_each(|&(x, q, share)| push([x, line.y, q], share));
+                        .for_each(|&(x, q, share)| push([side * x, line.y, q], share));
                 } else {
-                    stretch.sample(|x, q, share| push([x, line.y, q], share));
+                    stretch.sample(|x, q, share| push([side * x, line.y, q], share));
                 }
             }
         }
@@ -506,6 +534,7 @@ mod tests {
             size: SIZE,
             radius: 0.94,
             everywhere: false,
+            half: false,
             columns: [true; VARYING.len()],
         }
     }

@@ -213,6 +213,9 @@ impl Job<'_> {
             if several {
                 lit = into.put_sums(sums, self);
             }
+            if self.panel.half {
+                into.mirror_across(size);
+            }
             if let Some(mut twin) = twin {
                 into.mirror_to(&mut twin, size);
             }

@@ -177,6 +177,27 @@ impl<'a> Rows<'a> {
         (first, rest)
     }
 
+    /// Copies the left half of every row of `size` pixels to the right one.
+    pub fn mirror_across(&mut self, size: usize) {
+        fn flip<T: Copy>(values: &mut [T], size: usize, channels: usize) {
+            for row in values.chunks_exact_mut(size * channels) {
+                for column in 0..size / 2 {
+                    let pixel = column * channels..(column + 1) * channels;
+                    row.copy_within(pixel, (size - 1 - column) * channels);
+                }
+            }
+        }
+        for column in [&mut *self.right, &mut *self.wrong] {
+            flip(column, size, self.channels);
+        }
+        for column in [&mut *self.right_seen, &mut *self.wrong_seen] {
+            flip(column, size, self.channels);
+        }
+        for column in [&mut *self.lit, &mut *self.brighter, &mut *self.stops] {
+            flip(column, size, 1);
+        }
+    }
+
     /// Copies the rows of `size` pixels in reverse order to what mirrors them, as many as there are
     /// from its end.
     pub fn mirror_to(&self, twin: &mut Rows<'_>, size: usize) {

@@ -295,6 +295,16 @@ fn scenes() -> Vec<Scene> {
                 light(10.0, 0.0, None, [0.0; 3]),
             ],
         ),
+        // Both in the vertical plane; both at the camera, where both halves are copied.
+        with(
+            near,
+            vec![
+                light(50.0, 90.0, Some(1.6), [1.0, 0.5, 0.25]),
+                light(95.0, 270.0, None, white),
+            ],
+        ),
+        with(Eye::Orthographic, vec![light(140.0, 270.0, None, white)]),
+        with(near, vec![light(0.0, 0.0, Some(2.0), white)]),
     ]
 }
 
@@ -318,7 +328,9 @@ fn what_is_skipped_changes_nothing_in_any_scene() {
                 ..scene.clone()
             };
             check_skipping(&bug, 57, ulps);
+            check_skipping(&bug, 51, ulps);
             check_skipping(&bug, 40, ulps);
+            check_skipping(&bug, 51, ulps);
         }
     }
 }
@@ -419,7 +431,17 @@ fn the_plan_knows_what_varies_in_a_scene() {
     check_explained(scenes[0].clone(), &[mirrors], &[constant]);
     check_explained(scenes[2].clone(), &[mirrors], &[constant]);
     check_explained(scenes[3].clone(), &[], &[mirrors, constant]);
-    check_explained(scenes[4].clone(), &[constant, "evaluated once"], &[mirrors]);
+    let across = "the right half is copied";
+    let both = "both halves beside the light's direction are shaded";
+    check_explained(scenes[0].clone(), &[], &[across, both]);
+    check_explained(scenes[3].clone(), &[both], &[across]);
+    check_explained(scenes[7].clone(), &[across], &[mirrors, both]);
+    check_explained(scenes[9].clone(), &[across, mirrors], &[both]);
+    check_explained(
+        scenes[4].clone(),
+        &[constant, "evaluated once", across],
+        &[mirrors],
+    );
     check_explained(scenes[5].clone(), &[mirrors, "under each light"], &[]);
     check_explained(
         scenes[6].clone(),
