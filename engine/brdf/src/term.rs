@@ -151,8 +151,7 @@ pub(crate) use entry;
 
 /// Makes `each`, which evaluates a function at many points. Where the function's arithmetic is
 /// inlined and free of branches, the loop works on several points at a time, and what depends on
-/// the material alone is computed once; AVX-512 divides and takes roots no faster than AVX2, so
-/// there is no loop for it.
+/// the material alone is computed once.
 macro_rules! block {
     ($name:ident::<$real:ident>($($arg:ident),+)) => {
         const NAMES: &[&str] = &[$(stringify!($arg)),+];
@@ -189,14 +188,20 @@ macro_rules! block {
         fn avx2<const SAME: u32>(args: &[&[$real]], out: &mut [$real]) {
             body::<SAME>(args, out);
         }
+        #[cfg(target_arch = "x86_64")]
+        #[target_feature(enable = "avx2,avx512f,avx512vl,avx512dq,avx512bw")]
+        fn avx512<const SAME: u32>(args: &[&[$real]], out: &mut [$real]) {
+            body::<SAME>(args, out);
+        }
         fn on<const SAME: u32>(isa: $crate::batch::Isa, args: &[&[$real]], out: &mut [$real]) {
             match isa.level() {
                 $crate::batch::Level::Baseline => body::<SAME>(args, out),
-                // SAFETY: a level is named only where its instructions, AVX2 among them, were found.
+                // SAFETY: a level is named only where its instructions were found.
                 #[cfg(target_arch = "x86_64")]
-                $crate::batch::Level::Avx2 | $crate::batch::Level::Avx512 => unsafe {
-                    avx2::<SAME>(args, out)
-                },
+                $crate::batch::Level::Avx2 => unsafe { avx2::<SAME>(args, out) },
+                // SAFETY: as above.
+                #[cfg(target_arch = "x86_64")]
+                $crate::batch::Level::Avx512 => unsafe { avx512::<SAME>(args, out) },
             }
         }
         fn each(isa: $crate::batch::Isa, args: &[&[$real]], out: &mut [$real]) {
