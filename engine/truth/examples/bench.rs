@@ -8,8 +8,14 @@ fn main() {
     let limits = limits(effort);
     for limit in &limits {
         println!(
-            "{:9} division {:.4} ns a lane, square root {:.4} ns, product {:.4} ns",
-            limit.isa, limit.division_ns, limit.square_root_ns, limit.product_ns
+            "{:9} division {:.4} ns a lane, square root {:.4} ns, product {:.4} ns; beside products \
+             a division is {:.2} of them, a root {:.2}",
+            limit.isa,
+            limit.division_ns,
+            limit.square_root_ns,
+            limit.product_ns,
+            limit.division_products,
+            limit.root_products
         );
     }
     run(effort, &limits, |rows| rows.iter().for_each(print));
@@ -19,9 +25,12 @@ fn print(row: &Row) {
     let share = row
         .limit_ratio
         .map_or(String::new(), |ratio| format!("{:3.0} %", 100.0 * ratio));
+    let products = row
+        .products_ratio
+        .map_or(String::new(), |ratio| format!("{:3.0} %", 100.0 * ratio));
     let needs = row.needs.as_deref().unwrap_or_default();
     println!(
-        "{} {:42} {:26} {:4} {:9} {:11.3} ns {:9.1} M/s {share:5} {needs:5} {:9.3e} {:9.3e} {:9.3e} {}",
+        "{} {:42} {:26} {:4} {:9} {:11.3} ns {:9.1} M/s {share:5} {needs:5} {products:5} {:9.3e} {:9.3e} {:9.3e} {}",
         if row.pareto { '*' } else { ' ' },
         row.group,
         row.variant,

@@ -65,6 +65,7 @@ fn pareto_front() {
         isa: "baseline",
         ns,
         limit_ratio: None,
+        products_ratio: None,
         needs: None,
         max_ulp,
         p999_ulp: 0.0,

@@ -108,8 +108,14 @@ fn foreword(machine: &str, load: &str, limits: &[Limit]) -> String {
     );
     for limit in limits {
         text.push_str(&format!(
-            "  {:<9} division {:.3}  square root {:.3}  product {:.4}\n",
-            limit.isa, limit.division_ns, limit.square_root_ns, limit.product_ns
+            "  {:<9} division {:.3}  square root {:.3}  product {:.4}; beside products a division \
+             counts as {:.1} of them, a root as {:.1}\n",
+            limit.isa,
+            limit.division_ns,
+            limit.square_root_ns,
+            limit.product_ns,
+            limit.division_products,
+            limit.root_products
         ));
     }
     text
@@ -146,6 +152,7 @@ struct Cells<'a> {
     meval_s: String,
     share: String,
     needs: String,
+    products: String,
     worst: String,
     p999: String,
     median: String,
@@ -162,14 +169,15 @@ impl Cells<'_> {
             meval_s,
             share,
             needs,
+            products,
             worst,
             p999,
             median,
         } = self;
         let line = match width {
             Width::Full => format!(
-                "{star} {variant:<27} {precision:<3} {isa:<8} {ns:>8} {meval_s:>7} {share:>5} \
-                 {needs:<4} {worst:>8} {p999:>8} {median:>8}"
+                "{star} {variant:<27} {precision:<3} {isa:<8} {ns:>8} {meval_s:>6} {share:>4} \
+                 {needs:<4} {products:>4} {worst:>8} {p999:>8} {median:>8}"
             ),
             Width::Narrow => format!(
                 "{star} {variant:<27} {precision:<3} {isa:<8} {ns:>8} {share:>5} {worst:>8} \
@@ -189,18 +197,19 @@ fn heading(width: Width) -> String {
         isa: "",
         ns: "ns".into(),
         meval_s: "M/s".into(),
-        share: "limit".into(),
+        share: "÷√".into(),
         needs: "of".into(),
+        products: "×".into(),
         worst: "worst".into(),
         p999: "p99.9".into(),
         median: "median".into(),
     };
     let limit = match width {
         Width::Full => {
-            "limit: share of what those units allow: divisions (÷) and roots (√) share one, products (×) have\n\
-             others; of whichever takes longer."
+            "÷√: share of what the unit allows that divides and takes roots; ×: of what those allow that\n\
+             multiply, which divisions and roots need, too. The larger is of the one that limits."
         }
-        Width::Narrow => "limit: share of what those units allow.",
+        Width::Narrow => "÷√: share of what the unit allows that divides and takes roots.",
     };
     format!(
         "\n{limit}\n\
@@ -252,13 +261,10 @@ fn print(group: &[Row], as_json: bool, width: Width) -> Result<(), Failure> {
 }
 
 fn table_row(row: &Row, width: Width) -> String {
-    let share = row
-        .limit_ratio
-        .map(|ratio| format!("{:.0}%", 100.0 * ratio));
-    let (share, needs) = (
-        share.unwrap_or_default(),
-        row.needs.clone().unwrap_or_default(),
-    );
+    let percent = |ratio: f64| format!("{:.0}%", 100.0 * ratio);
+    let share = row.limit_ratio.map(percent).unwrap_or_default();
+    let products = row.products_ratio.map(percent).unwrap_or_default();
+    let needs = row.needs.clone().unwrap_or_default();
     let error = |error| match row.error_unit {
         "none" => "-".to_owned(),
         "relative" if error == 0.0 => "0r".to_owned(),
@@ -274,6 +280,7 @@ fn table_row(row: &Row, width: Width) -> String {
         meval_s: short(row.meval_s()),
         share,
         needs,
+        products,
         worst: error(row.max_ulp),
         p999: error(row.p999_ulp),
         median: error(row.median_ulp),
@@ -310,6 +317,9 @@ struct Line<'a> {
     ns: f64,
     meval_s: f64,
     limit_ratio: Option<f64>,
+    /// The same of the units that multiply.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    products_ratio: Option<f64>,
     max_ulp: Option<f64>,
     p999_ulp: Option<f64>,
     median_ulp: Option<f64>,
@@ -330,6 +340,7 @@ impl<'a> Line<'a> {
             ns: row.ns,
             meval_s: row.meval_s(),
             limit_ratio: row.limit_ratio,
+            products_ratio: row.products_ratio,
             max_ulp: known(row.max_ulp),
             p999_ulp: known(row.p999_ulp),
             median_ulp: known(row.median_ulp),
@@ -352,6 +363,7 @@ mod tests {
             isa: "baseline",
             ns,
             limit_ratio: Some(0.934),
+            products_ratio: Some(0.5),
             needs: Some("3÷2√".into()),
             max_ulp,
             p999_ulp: max_ulp,
@@ -393,7 +405,7 @@ mod tests {
         let line = serde_json::to_string(&Line::of(row)).expect("JSON");
         let begin = "{\"group\":\"specular\",\"variant\":\"spherical cap, 1024 samples\",\
                      \"precision\":\"f32\",\"isa\":\"baseline\",\"ns\":0.5,\"meval_s\":2000.0,\
-                     \"limit_ratio\":0.934,";
+                     \"limit_ratio\":0.934,\"products_ratio\":0.5,";
         assert_eq!(line, format!("{begin}{end}"));
     }
 

@@ -316,6 +316,7 @@ mod tests {
             isa,
             ns,
             limit_ratio: None,
+            products_ratio: None,
             needs: None,
             max_ulp,
             p999_ulp: max_ulp,

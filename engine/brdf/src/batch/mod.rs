@@ -57,7 +57,9 @@ pub use conductor::{Conductor, conductor_rgb};
 pub(crate) use functions::{ln_unit, sin_cos_turn};
 pub use sample::{Samples, sample};
 pub use specular::{Cosines, Vectors, specular, specular_vec3, specular_vectors};
-pub use units::{PRODUCTS, divide, multiply, square_root};
+pub use units::{
+    BESIDE, PRODUCTS, divide, divide_beside, multiply, square_root, square_root_beside,
+};
 
 use lanes::{At, Column, Lanes};
 

@@ -28,10 +28,25 @@ pub fn square_root(isa: Isa, a: &[f32], out: &mut [f32]) {
 /// How many products [`multiply`] makes of each number.
 pub const PRODUCTS: usize = 32;
 
-/// Products with sums, fused where the machine can: [`PRODUCTS`] of each number, in eight chains,
-/// to measure how fast it multiplies.
+/// Products, [`PRODUCTS`] of each number in eight chains, to measure how fast the machine
+/// multiplies.
 pub fn multiply(isa: Isa, a: &[f32], out: &mut [f32]) {
     dispatch_lanes!(isa, multiply_body(a: &[f32], out: &mut [f32]))
+}
+
+/// How many quotients or roots of each number stand beside the products of [`divide_beside`] and
+/// [`square_root_beside`].
+pub const BESIDE: usize = 4;
+
+/// What [`multiply`] does, and [`BESIDE`] quotients: how much longer it takes is what a quotient
+/// needs of the units that multiply.
+pub fn divide_beside(isa: Isa, a: &[f32], out: &mut [f32]) {
+    dispatch_lanes!(isa, divide_beside_body(a: &[f32], out: &mut [f32]))
+}
+
+/// The same with square roots.
+pub fn square_root_beside(isa: Isa, a: &[f32], out: &mut [f32]) {
+    dispatch_lanes!(isa, square_root_beside_body(a: &[f32], out: &mut [f32]))
 }
 
 #[inline(always)]
@@ -47,6 +62,16 @@ fn square_root_body<V: Lanes, T: Lanes>(a: &[f32], out: &mut [f32]) {
 #[inline(always)]
 fn multiply_body<V: Lanes, T: Lanes>(a: &[f32], out: &mut [f32]) {
     measured::<V, T>(a, a, out, Products);
+}
+
+#[inline(always)]
+fn divide_beside_body<V: Lanes, T: Lanes>(a: &[f32], out: &mut [f32]) {
+    measured::<V, T>(a, a, out, Beside(Quotient));
+}
+
+#[inline(always)]
+fn square_root_beside_body<V: Lanes, T: Lanes>(a: &[f32], out: &mut [f32]) {
+    measured::<V, T>(a, a, out, Beside(Root));
 }
 
 #[inline(always)]
@@ -106,11 +131,26 @@ impl Operation for Products {
         }
         for _ in 0..PRODUCTS / 8 {
             for chain in &mut chains {
-                *chain = chain.mul_add(x, x);
+                *chain = *chain * x;
             }
         }
         let [a, b, c, d, e, f, g, h] = chains;
         ((a + b) + (c + d)) + ((e + f) + (g + h))
+    }
+}
+
+/// Products, and something else beside them.
+struct Beside<O>(O);
+
+impl<O: Operation> Operation for Beside<O> {
+    #[inline(always)]
+    fn of<S: Lanes>(&self, x: S, _: S) -> S {
+        let mut sum = Products.of(x, x);
+        for i in 0..BESIDE {
+            let other = x + S::splat(i as f32);
+            sum = sum + self.0.of(other, other + S::splat(0.5));
+        }
+        sum
     }
 }
 

@@ -1,6 +1,6 @@
 //! Many evaluations at once, in every instruction set of the machine.
 
-use super::{Effort, Errors, Limit, Needs, Numbers, Row, Stopwatch, opaque};
+use super::{Effort, Limit, Needs, Numbers, Row, Stopwatch, opaque};
 use brdf::batch::{self, Conductor, Cosines, Input, Isa, Samples, Vectors};
 use brdf::glam::Vec3;
 use brdf::walk::{Walks, walk_mirrors};
@@ -59,19 +59,21 @@ type Call = Box<dyn FnMut()>;
 /// Divisions, square roots and products of an instruction set.
 struct Units {
     isa: &'static str,
-    watches: [Stopwatch<Call>; 3],
+    watches: [Stopwatch<Call>; 5],
 }
 
 impl Units {
     fn new(isa: Isa) -> Units {
         let mut numbers = Numbers(1);
         let mut input = || Aligned::random(&mut numbers, 0.5);
-        let (a, b, c, d) = (input(), input(), input(), input());
-        let [mut x, mut y, mut z] = [0; 3].map(|_| Aligned::zeros());
-        let calls: [Call; 3] = [
+        let (a, b, c, d, e, f) = (input(), input(), input(), input(), input(), input());
+        let [mut x, mut y, mut z, mut v, mut w] = [0; 5].map(|_| Aligned::zeros());
+        let calls: [Call; 5] = [
             Box::new(move || batch::divide(isa, &a, &b, opaque(&mut x))),
             Box::new(move || batch::square_root(isa, &c, opaque(&mut y))),
             Box::new(move || batch::multiply(isa, &d, opaque(&mut z))),
+            Box::new(move || batch::divide_beside(isa, &e, opaque(&mut v))),
+            Box::new(move || batch::square_root_beside(isa, &f, opaque(&mut w))),
         ];
         Units {
             isa: isa.name(),
@@ -86,11 +88,18 @@ impl Units {
     }
 
     fn limit(&self) -> Limit {
+        let [division, root, products, divisions_beside, roots_beside] =
+            self.watches.each_ref().map(Stopwatch::ns);
+        let product_ns = products / batch::PRODUCTS as f64;
+        let extra =
+            |beside: f64| ((beside - products) / product_ns).max(0.0) / batch::BESIDE as f64;
         Limit {
             isa: self.isa,
-            division_ns: self.watches[0].ns(),
-            square_root_ns: self.watches[1].ns(),
-            product_ns: self.watches[2].ns() / batch::PRODUCTS as f64,
+            division_ns: division,
+            square_root_ns: root,
+            product_ns,
+            division_products: extra(divisions_beside),
+            root_products: extra(roots_beside),
         }
     }
 }
@@ -163,28 +172,14 @@ impl Batches {
         let limits: Vec<Limit> = limits.iter().copied().zip(again).map(best).collect();
         let row = |subject: Subject| {
             let limit = limits.iter().find(|limit| limit.isa == subject.isa);
-            let least = subject.needs.zip(limit);
-            let least = least.map(|(needs, limit)| needs.least(limit));
-            let ns = subject.watch.ns();
-            let error_unit = if subject.errors.is_empty() {
-                "none"
-            } else {
-                "ulp"
-            };
-            let errors = Errors::of(subject.errors);
-            Row {
-                group: subject.name.0.into(),
-                variant: subject.name.1.into(),
-                precision: "f32",
-                isa: subject.isa,
-                ns,
-                limit_ratio: least.as_ref().map(|(least, _)| least / ns),
-                needs: least.map(|(_, needs)| needs),
-                max_ulp: errors.max,
-                p999_ulp: errors.p999,
-                median_ulp: errors.median,
-                error_unit,
-                pareto: false,
+            let mut row = Row::new(subject.name.0, subject.name.1, subject.watch.ns());
+            row.isa = subject.isa;
+            if !subject.errors.is_empty() {
+                row = row.with_errors("ulp", subject.errors);
+            }
+            match subject.needs.zip(limit) {
+                Some((needs, limit)) => needs.share(limit, 1, row),
+                None => row,
             }
         };
         let groups = self.subjects.into_iter();
@@ -194,13 +189,15 @@ impl Batches {
     }
 }
 
-/// The lesser times of two measurements of the same units.
+/// The lesser figures of two measurements of the same units.
 fn best((a, b): (Limit, Limit)) -> Limit {
     Limit {
         isa: a.isa,
         division_ns: a.division_ns.min(b.division_ns),
         square_root_ns: a.square_root_ns.min(b.square_root_ns),
         product_ns: a.product_ns.min(b.product_ns),
+        division_products: a.division_products.min(b.division_products),
+        root_products: a.root_products.min(b.root_products),
     }
 }
 
@@ -291,7 +288,7 @@ pub(super) fn specular(isa: Isa, variant: &str, columns: &[Aligned; 6], out: &mu
 }
 
 /// Divisions, square roots and products from vectors, α and f0 the same for all.
-const VECTORS: (f64, f64, f64) = (2.0, 3.0, 24.0);
+const VECTORS: (f64, f64, f64) = (2.0, 3.0, 23.0);
 
 fn vectors() -> Vec<Subject> {
     let lobe = Specular {
@@ -417,21 +414,27 @@ impl Drawing {
 }
 
 /// Divisions, square roots and products of a sample with density and weight.
-pub(super) const SAMPLE: (f64, f64, f64) = (3.0, 2.0, 27.0);
+pub(super) const SAMPLE: (f64, f64, f64) = (3.0, 2.0, 25.0);
 
 fn sample() -> Vec<Subject> {
     let ggx = Ggx::new(f64::from(0.4f32));
     let row = |isa: Isa| {
         let mut drawing = Drawing::new();
         drawing.draw(isa);
-        let errors = errors(&drawing.weight, |i| {
-            let u = [&drawing.u[0], &drawing.u[1]].map(|u| f64::from(u[i]));
-            let v = Drawing::VIEW.to_array().map(f64::from);
-            ggx.sample(v, u, Sampler::BoundedCap).weight
+        // Weight and density of the direction that was drawn: rounded, it is another one.
+        let v = Drawing::VIEW.to_array().map(f64::from);
+        let l = |i: usize| drawing.l.each_ref().map(|l| f64::from(l[i]));
+        let mut errors_of = errors(&drawing.weight, |i| {
+            ggx.weight(l(i), v, Sampler::BoundedCap)
         });
+        let above: Vec<usize> = (0..COUNT).filter(|&i| drawing.l[2][i] > 0.0).collect();
+        let pdf: Vec<f32> = above.iter().map(|&i| drawing.pdf[i]).collect();
+        errors_of.extend(errors(&pdf, |i| {
+            ggx.pdf(l(above[i]), v, Sampler::BoundedCap)
+        }));
         let needs = needs(SAMPLE.0, SAMPLE.1, SAMPLE.2);
         let call = move || drawing.draw(isa);
-        subject(("sample", "batch"), isa, needs, errors, call)
+        subject(("sample", "batch"), isa, needs, errors_of, call)
     };
     Isa::available().into_iter().map(row).collect()
 }

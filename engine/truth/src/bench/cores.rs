@@ -3,9 +3,10 @@
 use super::batches::{Aligned, COUNT, Drawing, SAMPLE, specular};
 use super::{Effort, Limit, Needs, Numbers, Row, opaque};
 use brdf::batch::Isa;
+use std::hint;
 use std::num::NonZero;
-use std::sync::Barrier;
-use std::thread::{available_parallelism, scope};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread::{available_parallelism, scope, yield_now};
 use std::time::{Duration, Instant};
 
 /// Of each thread between two meetings: short beside what a scheduler gives it.
@@ -21,20 +22,11 @@ pub(super) fn rows(effort: Effort, limits: &[Limit]) -> Vec<Row> {
             roots,
             products,
         };
-        let least = limit.map(|limit| needs.least(limit));
-        Row {
-            group: "all_cores".into(),
-            variant: format!("{variant}, {threads} threads"),
-            precision: "f32",
-            isa: isa.name(),
-            ns,
-            limit_ratio: least.as_ref().map(|(least, _)| least / threads as f64 / ns),
-            needs: least.map(|(_, needs)| needs),
-            max_ulp: 0.0,
-            p999_ulp: 0.0,
-            median_ulp: 0.0,
-            error_unit: "none",
-            pareto: false,
+        let row = Row::new("all_cores", format!("{variant}, {threads} threads"), ns);
+        let row = row.on(isa.name());
+        match limit {
+            Some(limit) => needs.share(limit, threads, row),
+            None => row,
         }
     };
     let cosines = together(effort, threads, || {
@@ -53,6 +45,34 @@ pub(super) fn rows(effort: Effort, limits: &[Limit]) -> Vec<Row> {
     ]
 }
 
+/// Where threads wait for each other without sleeping: one that has to be woken comes a tenth of
+/// a run later than the others.
+struct Meeting {
+    threads: usize,
+    arrived: AtomicUsize,
+}
+
+impl Meeting {
+    fn of(threads: usize) -> Meeting {
+        let arrived = AtomicUsize::new(0);
+        Meeting { threads, arrived }
+    }
+
+    fn wait(&self) {
+        let place = self.arrived.fetch_add(1, Ordering::AcqRel);
+        let all = (place / self.threads + 1) * self.threads;
+        let mut spins = 0u32;
+        while self.arrived.load(Ordering::Acquire) < all {
+            // The one that is waited for may need this core.
+            spins += 1;
+            if spins.is_multiple_of(1 << 12) {
+                yield_now();
+            }
+            hint::spin_loop();
+        }
+    }
+}
+
 /// Nanoseconds for one evaluation of all threads together, from the first that begins to the
 /// last that ends, in the best of many runs. Each thread has data of its own.
 fn together<F: FnMut()>(effort: Effort, threads: usize, make: impl Fn() -> F + Sync) -> f64 {
@@ -65,7 +85,7 @@ fn together<F: FnMut()>(effort: Effort, threads: usize, make: impl Fn() -> F + S
         ((RUN.as_secs_f64() / once) as usize).clamp(1, 100_000)
     };
     let runs = (effort.time.as_secs_f64() / RUN.as_secs_f64()).clamp(3.0, 1000.0) as usize;
-    let meeting = Barrier::new(threads);
+    let meeting = Meeting::of(threads);
     let work = || {
         let mut call = make();
         call();

@@ -31,10 +31,12 @@ pub struct Row {
     pub isa: &'static str,
     /// Nanoseconds for one evaluation.
     pub ns: f64,
-    /// Share of what the machine's units allow, where it is known what an evaluation needs.
+    /// Share of what the unit that divides and takes roots allows, where it is known what an
+    /// evaluation needs.
     pub limit_ratio: Option<f64>,
-    /// What an evaluation needs of the unit that limits it: `1÷2√` for a division and two
-    /// square roots, which share one, or `24×` for products.
+    /// The same for the units that multiply: where it is more, these are the limit.
+    pub products_ratio: Option<f64>,
+    /// What an evaluation needs of the first: `1÷2√` for a division and two square roots.
     pub needs: Option<String>,
     /// Largest error.
     pub max_ulp: f64,
@@ -59,6 +61,7 @@ impl Row {
             isa: "baseline",
             ns,
             limit_ratio: None,
+            products_ratio: None,
             needs: None,
             max_ulp: 0.0,
             p999_ulp: 0.0,
@@ -125,8 +128,12 @@ pub struct Limit {
     pub division_ns: f64,
     /// Nanoseconds a lane for a square root.
     pub square_root_ns: f64,
-    /// Nanoseconds a lane for a product, with a sum that comes for free.
+    /// Nanoseconds a lane for a product.
     pub product_ns: f64,
+    /// For how many products a division occupies the units that multiply.
+    pub division_products: f64,
+    /// For how many products a square root does.
+    pub root_products: f64,
 }
 
 /// What one evaluation needs in the form with the least of it that is known here.
@@ -139,21 +146,28 @@ pub(crate) struct Needs {
 }
 
 impl Needs {
-    /// The least time that the machine's units need, and of which of them it is.
-    ///
-    /// Divisions and square roots share one unit, products have others: the one that takes
-    /// longer is the limit, even where all the rest is done beside it.
-    fn least(self, limit: &Limit) -> (f64, String) {
-        let slow = self.divisions * limit.division_ns + self.roots * limit.square_root_ns;
-        let fast = self.products * limit.product_ns;
-        if fast > slow {
-            return (fast, format!("{}×", self.products));
-        }
+    /// The least time in the unit that divisions and square roots share: even where all the rest
+    /// is done beside them.
+    fn slow(self, limit: &Limit) -> f64 {
+        self.divisions * limit.division_ns + self.roots * limit.square_root_ns
+    }
+
+    /// The least time in the units that multiply, which divisions and roots need, too.
+    fn fast(self, limit: &Limit) -> f64 {
+        let beside = self.divisions * limit.division_products + self.roots * limit.root_products;
+        (self.products + beside) * limit.product_ns
+    }
+
+    /// A row with its shares of a limit, `at_once` evaluations being under way.
+    pub fn share(self, limit: &Limit, at_once: usize, mut row: Row) -> Row {
         let part = |count: f64, sign| match count {
             0.0 => String::new(),
             _ => format!("{count}{sign}"),
         };
-        (slow, part(self.divisions, '÷') + &part(self.roots, '√'))
+        let of = |least: f64| Some(least / at_once as f64 / row.ns);
+        (row.limit_ratio, row.products_ratio) = (of(self.slow(limit)), of(self.fast(limit)));
+        row.needs = Some(part(self.divisions, '÷') + &part(self.roots, '√'));
+        row
     }
 }
 
