@@ -5,12 +5,14 @@ use crate::builtin::{Builtin, builtin_names};
 use crate::error::{Error, excerpt};
 use crate::expr::{Arg, Expr, Node};
 use crate::parse::parse;
+use crate::spelling::unicode_name;
 
 /// Parses what a learner types: literals, `+ - * / ^`, parentheses, `pi`, elementary
 /// functions and the `names` of the exercise; never a function of the core.
 ///
 /// A comma is a decimal comma where the whole answer is one number. A leading `=` or `≈`
-/// is overlooked, and names may be typed as `NdotL`, `N·L` or `n_dot_l`.
+/// is overlooked, and names may be typed as `NdotL`, `N·L` or `n_dot_l`, or as they are printed:
+/// `β` for `light_deg`.
 ///
 /// # Errors
 /// A span into `text` and what was expected there: nothing that should cost an attempt.
@@ -95,6 +97,24 @@ fn shifted(mut expr: Expr, by: usize) -> Expr {
     expr
 }
 
+/// How a name is printed, and the name that this is read as: `β` and `beta` for `light_deg`. None
+/// where it is printed as it is typed, or as more than a name.
+fn symbol(name: &str) -> Option<(String, String)> {
+    let printed = unicode_name(name);
+    match parse(&printed).ok()?.node {
+        Node::Name(read) if read != name => Some((printed, read)),
+        _ => None,
+    }
+}
+
+/// A name as it can be typed, and as it is printed where that is another one.
+fn typable(name: &str) -> String {
+    symbol(name).map_or_else(
+        || name.to_owned(),
+        |(printed, _)| format!("{name} ({printed})"),
+    )
+}
+
 /// Looks up every name of a learner's answer, respelling `NdotL` as `n_dot_l`.
 fn answer_names(mut expr: Expr, names: &[&str]) -> Result<Expr, Error> {
     let span = expr.span;
@@ -103,7 +123,12 @@ fn answer_names(mut expr: Expr, names: &[&str]) -> Result<Expr, Error> {
         Node::Name(name) => {
             let flat = |name: &str| name.replace('_', "").to_lowercase();
             let known = std::iter::once("pi").chain(names.iter().copied());
-            match known.clone().find(|known| flat(known) == flat(name)) {
+            let meant = known.clone().find(|known| flat(known) == flat(name));
+            let printed = || {
+                let mut names = names.iter().copied();
+                names.find(|known| symbol(known).is_some_and(|(_, read)| read == *name))
+            };
+            match meant.or_else(printed) {
                 Some(known) => *name = known.to_string(),
                 None if brdf::term(name).is_some() => {
                     return Err(
@@ -123,6 +148,7 @@ fn answer_names(mut expr: Expr, names: &[&str]) -> Result<Expr, Error> {
                     return Err(if near.help.is_some() || names.is_empty() {
                         near
                     } else {
+                        let names: Vec<String> = names.iter().map(|name| typable(name)).collect();
                         error.help(format!("known here: {}", names.join(", ")))
                     });
                 }

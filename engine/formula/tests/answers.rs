@@ -108,3 +108,23 @@ fn a_learner_is_told_what_to_do_instead() {
         told(text, parse_answer(text, &["n_dot_l", "alpha"]), under, said);
     }
 }
+
+#[test]
+fn a_name_may_be_typed_as_it_is_printed() {
+    let given = [("light_deg", 60.0), ("ior", 1.5), ("f0", 0.04)];
+    let names = ["light_deg", "ior", "f0"];
+    for (text, expected) in [("β / 2", 30.0), ("n - 1", 0.5), ("1 - F0", 0.96)] {
+        let expr = parse_answer(text, &names).unwrap_or_else(|error| panic!("{text}: {error}"));
+        let value = formula::Library::new().eval(&expr, &values(&given));
+        assert_eq!(value, Ok(expected), "{text}");
+    }
+    // A name that is given means itself.
+    let own = parse_answer("n", &["ior", "n"]).expect("a name");
+    let value = formula::Library::new().eval(&own, &values(&[("ior", 1.5), ("n", 7.0)]));
+    assert_eq!(value, Ok(7.0));
+    let error = parse_answer("zzz", &names).expect_err("no such name");
+    assert_eq!(
+        error.to_string(),
+        "unknown name \"zzz\"; known here: light_deg (β), ior (n), f0"
+    );
+}

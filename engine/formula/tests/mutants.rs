@@ -161,7 +161,7 @@ fn each_kind_of_slip_is_found_and_told() {
         (
             "cos(deg(theta))",
             "degrees-for-radians:theta",
-            "Degrees were used where radians belong.",
+            "Degrees were used where radians belong: type `60°`, or set the calculator to degrees.",
             "cos(30)",
         ),
         (

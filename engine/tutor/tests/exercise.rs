@@ -184,6 +184,11 @@ fn answers_are_marked_in_order() {
     check(None, &[], "5.132e-1", "correct", "");
     check(Some("alpha"), &[], "0.4^2", "correct", "");
     check(Some("alpha"), &[], "roughness * roughness", "correct", "");
+    // As they are printed, and steps before that were left out or given.
+    check(Some("alpha"), &[], "r²", "correct", "");
+    check(None, &[], "0.5132 + 0 * alpha", "correct", "");
+    check(None, &[], "0.5132 * alpha / 0.16", "correct", "");
+    check(None, &[], "abc", "invalid", "roughness (r)");
     check(
         None,
         &[],

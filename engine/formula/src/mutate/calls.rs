@@ -96,7 +96,9 @@ impl Editor<'_> {
                 self.at(path, MutantKind::SqrtLost, &subject, says, first.clone());
             }
             Builtin::Deg => {
-                let says = "degrees were used where radians belong".to_string();
+                let says = "degrees were used where radians belong: type `60°`, or set the \
+                            calculator to degrees"
+                    .to_string();
                 self.at(
                     path,
                     MutantKind::DegreesForRadians,

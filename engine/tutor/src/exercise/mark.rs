@@ -251,13 +251,12 @@ impl Marker<'_> {
         typed
     }
 
-    /// Arithmetic over the given numbers and the learner's own earlier ones.
+    /// Arithmetic over the given numbers and the steps before: the learner's own numbers, and
+    /// what follows from them where he had none to find.
     fn read(&self, text: &str, typed: &[Option<f64>]) -> Result<f64, String> {
         let mut known = self.draw.given.clone();
-        for (step, value) in self.plan.steps.iter().zip(typed) {
-            if let Some(value) = value {
-                known.entry(step.name.to_owned()).or_insert(*value);
-            }
+        for (step, value) in self.plan.steps.iter().zip(self.values(typed)) {
+            known.entry(step.name.to_owned()).or_insert(value);
         }
         if text.trim().is_empty() {
             return Err("Type a number, or arithmetic such as `0.4^4`.".to_owned());
@@ -272,19 +271,25 @@ impl Marker<'_> {
         }
     }
 
+    /// The steps before, each as typed, or as it follows from those before it.
+    fn values(&self, typed: &[Option<f64>]) -> Vec<f64> {
+        let mut values: Vec<f64> = Vec::new();
+        for (index, typed) in typed.iter().enumerate() {
+            let following = || self.plan.following(index, &self.point.variables, &values);
+            let value = typed.unwrap_or_else(following);
+            values.push(value);
+        }
+        values
+    }
+
     /// What follows from the learner's earlier numbers, and the first step among them that was
     /// not right. None where there are no earlier numbers.
     fn followed(&self, typed: &[Option<f64>]) -> Option<(f64, Option<usize>)> {
-        let mut values: Vec<f64> = Vec::new();
-        let mut slip = None;
-        for (index, typed) in typed.iter().enumerate() {
-            let following = self.plan.following(index, &self.point.variables, &values);
-            let value = typed.unwrap_or(following);
-            if typed.is_some() && slip.is_none() && !self.near(value, self.point.steps[index]) {
-                slip = Some(index);
-            }
-            values.push(value);
-        }
+        let values = self.values(typed);
+        let slip = typed
+            .iter()
+            .zip(&self.point.steps)
+            .position(|(typed, truth)| typed.is_some_and(|value| !self.near(value, *truth)));
         typed.iter().any(Option::is_some).then(|| {
             let value = self
                 .plan
@@ -413,7 +418,7 @@ impl Marker<'_> {
 
 /// A sentence: a capital letter first, unless it begins with a name of the formula language,
 /// and a full stop or question mark last.
-fn sentence(text: &str) -> String {
+pub(crate) fn sentence(text: &str) -> String {
     let first: String = text
         .chars()
         .take_while(|c| c.is_alphanumeric() || *c == '_')

@@ -18,6 +18,7 @@ use formula::Values;
 
 pub use draw::{MOST_TRIES, draw};
 pub use hint::{after_right, hint, tolerance_words};
+pub(crate) use mark::sentence;
 pub use mark::{Marking, OffBy, mark};
 
 use crate::lesson::Exercise;
