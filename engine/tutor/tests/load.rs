@@ -217,6 +217,23 @@ fn scenes_are_possible() {
         "`light_deg` is 180, which no scene can have.",
     );
     check_edit(
+        "wrong = \"d() * visibility() / (4 * n_dot_l * n_dot_v) * f_schlick() * n_dot_l\"",
+        "wrong = \"n_dot_l * f_schlick() * visibility() * d()\"",
+        "n_dot_l",
+        "The wrong picture of `twice` is the right one.",
+    );
+    check_edit(
+        SCENE,
+        &scene("light_degs = 60"),
+        "",
+        "The scene of `twice` has no `light_deg`.",
+    );
+    let found = findings(&edited(SCENE, &scene("light_degs = 60")));
+    assert_eq!(
+        found[0].help.as_deref(),
+        Some("Is `light_degs` meant for it?")
+    );
+    check_edit(
         SCENE,
         &scene("light_deg = 60, eye_distance = 1"),
         "1 }",
@@ -298,6 +315,13 @@ fn prose_types_no_numbers() {
     check_edit(
         "{{ v : .4 }}",
         "{{ v : .4",
+        "{{",
+        "This template is not closed.",
+    );
+    // The end of another template is not the end of this one.
+    check_edit(
+        "{{ v : .4 }}",
+        "{{ v : .4 } and {{ v : .4 }}",
         "{{",
         "This template is not closed.",
     );
@@ -490,6 +514,12 @@ fn exercises_are_rich_enough() {
         "",
         "10000 tries give no numbers for `fixture/peak`",
     );
+    check_edit(
+        "is = \"1 / (pi * roughness^4)\"\ntolerance",
+        "is = \"roughness + 0.5\"\ntolerance",
+        "",
+        "`fixture/peak` has ",
+    );
 }
 
 #[test]
@@ -596,6 +626,10 @@ fn broken_syntax_is_told_briefly() {
         &COMPLETE.replacen("summary = \"", "summary = \"\0", 1),
         "The control character U+0000",
     );
+    let single = "[step]\ntitle = \"a\"\n[step]\n";
+    check_syntax(single, "Duplicate key.");
+    let help = findings(single)[0].help.clone();
+    assert!(help.is_some_and(|help| help.contains("[[step]]")));
 }
 
 #[test]

@@ -43,7 +43,10 @@ pub fn check(checker: &mut Checker<'_>) -> Vec<DrawCount> {
     let numeric = lesson.exercises.iter().filter(|it| it.kind() == "numeric");
     let numeric = numeric.count();
     if numeric < NUMERIC {
-        let message = format!("The lesson has {numeric} numeric exercises.");
+        let message = match numeric {
+            1 => "The lesson has one numeric exercise.".to_owned(),
+            n => format!("The lesson has {n} numeric exercises."),
+        };
         checker
             .error_in(&lesson.id, "too-few-exercises", message)
             .expected = Some(format!("at least {NUMERIC}"));
@@ -121,10 +124,20 @@ fn check_exercise(checker: &mut Checker<'_>, exercise: &Exercise, own: bool) -> 
             ("mutants", mutants, MUTANTS),
         ] {
             if found < least {
-                let message = format!("`{}` has {found} {what}.", exercise.id);
-                checker
-                    .error_in(&exercise.id, "too-few-mistakes", message)
-                    .expected = Some(format!("at least {least}"));
+                let number = if found == 1 {
+                    &what[..what.len() - 1]
+                } else {
+                    what
+                };
+                let message = format!("`{}` has {found} {number}.", exercise.id);
+                let finding = checker.error_in(&exercise.id, "too-few-mistakes", message);
+                finding.expected = Some(format!("at least {least}"));
+                if what == "mutants" {
+                    let help = "They are found in the formula: a square, a root, a quotient, a \
+                                factor of pi or 4, a dot product. What has a name counts as \
+                                named. Ask for more of the calculation at once.";
+                    finding.help = Some(help.to_owned());
+                }
             }
         }
     }

@@ -1,10 +1,10 @@
 //! A lesson's formulas against the core's functions, and the formulas of its pictures.
 
-use formula::{Arg, Expr, Node};
+use formula::{Arg, Expr, Node, Values};
 
 use super::Checker;
 use crate::exercise::random::Random;
-use crate::lesson::{FormulaEntry, STAGING, Text};
+use crate::lesson::{Fingerprint, Formula, FormulaEntry, STAGING, Text};
 
 /// Random points at which a formula must equal its core function.
 const POINTS: usize = 200;
@@ -36,14 +36,50 @@ pub fn check(checker: &mut Checker<'_>) {
         let own = print.scene.iter().map(|it| it.name.text.as_str());
         let own = own.filter(|name| !STAGING.contains(name));
         let names: Vec<&str> = OFFERED.into_iter().chain(own).collect();
+        let mut sound = true;
         for formula in [&print.right, &print.wrong] {
-            if checker.expression(formula, &names)
-                && let Err(error) = lesson.library.wgsl(&formula.expr, &names)
-            {
+            sound &= checker.expression(formula, &names);
+            if sound && let Err(error) = lesson.library.wgsl(&formula.expr, &names) {
                 checker.formula_error(&formula.text, &error);
             }
         }
+        if sound && draws_the_same(checker, print, &names) {
+            let message = format!("The wrong picture of `{}` is the right one.", print.id);
+            let finding = checker.error_in(&print.wrong.text, "same-picture", message);
+            finding.expected = Some("a formula that gives other values than `right`".to_owned());
+        }
     }
+}
+
+/// Whether both formulas of a fingerprint have the same values, wherever both have one.
+fn draws_the_same(checker: &Checker<'_>, print: &Fingerprint, names: &[&str]) -> bool {
+    let mut random = Random::new(1, &print.id);
+    let mut compared = 0;
+    for _ in 0..POINTS {
+        let mut values: Values = names
+            .iter()
+            .map(|name| {
+                (
+                    (*name).to_owned(),
+                    0.05 + 0.9 * random.below(1000) as f64 / 1000.0,
+                )
+            })
+            .collect();
+        for given in &print.scene {
+            values.insert(given.name.text.clone(), given.value);
+        }
+        if let Some(roughness) = values.get("roughness").copied() {
+            values.insert("alpha".to_owned(), roughness * roughness);
+        }
+        let of = |formula: &Formula| checker.lesson.library.eval(&formula.expr, &values);
+        if let (Ok(right), Ok(wrong)) = (of(&print.right), of(&print.wrong)) {
+            if (right - wrong).abs() > 1e-9 * (right.abs() + wrong.abs()) {
+                return false;
+            }
+            compared += 1;
+        }
+    }
+    compared > 0
 }
 
 fn against_core(checker: &mut Checker<'_>, entry: &FormulaEntry, core: &Text) {

@@ -13,6 +13,7 @@ mod texts;
 
 use formula::{Expr, Values};
 
+use crate::exercise::sentence;
 use crate::finding::{Finding, Place};
 use crate::lesson::{Formula, Lesson, Text};
 use crate::load::literal;
@@ -141,9 +142,4 @@ impl<'l> Checker<'l> {
     fn eval(&self, expr: &Expr, values: &Values) -> Result<f64, formula::Error> {
         self.lesson.library.eval(expr, values)
     }
-}
-
-/// A sentence: a capital letter first, a full stop last.
-fn sentence(text: &str) -> String {
-    format!("{}.", crate::load::capitalised(text))
 }

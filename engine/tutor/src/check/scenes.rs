@@ -29,6 +29,7 @@ pub fn check(checker: &mut Checker<'_>) {
 
 fn givens(checker: &mut Checker<'_>, print: &Fingerprint) {
     let example = "scene = { roughness = 0.7, f0 = 0.95, light_deg = 60 }";
+    let known = ["roughness", "f0", "light_deg", "eye_distance", "radius"];
     let mut needed = vec!["roughness", "f0"];
     if print.lights.is_empty() {
         needed.push("light_deg");
@@ -36,7 +37,11 @@ fn givens(checker: &mut Checker<'_>, print: &Fingerprint) {
     for name in needed {
         if print.given(name).is_none() {
             let message = format!("The scene of `{}` has no `{name}`.", print.id);
-            checker.error_in(&print.id, "missing-key", message).expected = Some(example.to_owned());
+            let names = print.scene.iter().map(|it| it.name.text.as_str());
+            let near = crate::load::nearest(name, names.filter(|it| !known.contains(it)));
+            let finding = checker.error_in(&print.id, "missing-key", message);
+            finding.expected = Some(example.to_owned());
+            finding.help = near.map(|near| format!("Is `{near}` meant for it?"));
         }
     }
     if let Some(light) = print.given("light_deg")

@@ -84,6 +84,15 @@ fn syntax_finding(source: &Source<'_>, error: &toml::de::Error) -> Finding {
     }
     let mut finding = source.finding(at, "toml", format!("{}.", capitalised(message)));
     finding.expected = expected.map(str::to_owned);
+    let header = source
+        .text
+        .get(..at.start)
+        .is_some_and(|before| before.ends_with('['));
+    if header && message == "duplicate key" {
+        let help =
+            "What there may be several of has two brackets: [[step]], [[exercise]], [[explain]].";
+        finding.help = Some(help.to_owned());
+    }
     finding
 }
 

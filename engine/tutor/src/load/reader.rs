@@ -303,7 +303,7 @@ impl<'s, 't> Table<'s, 't> {
         };
         let Some(array) = value.get_ref().as_array() else {
             self.source
-                .wrong_kind(value, &format!("`{key}`"), "an array of tables");
+                .wrong_kind(value, &format!("`{key}`"), &format!("two brackets: {what}"));
             return Vec::new();
         };
         let mut tables = Vec::new();

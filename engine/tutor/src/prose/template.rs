@@ -110,7 +110,12 @@ pub fn pieces(text: &str) -> Vec<Piece> {
         if open > at {
             pieces.push(Piece::Words(at..open));
         }
-        match text[open..].find("}}") {
+        // Another one that opens before this one ends: its own end is missing.
+        let inside = &text[open + 2..];
+        let end = inside
+            .find("}}")
+            .filter(|end| !inside[..*end].contains("{{"));
+        match end.map(|end| end + 2) {
             Some(length) => {
                 let close = open + length;
                 pieces.push(Piece::Template(open..close + 2, open + 2..close));
@@ -118,8 +123,7 @@ pub fn pieces(text: &str) -> Vec<Piece> {
             }
             None => {
                 pieces.push(Piece::Open(open..open + 2));
-                pieces.push(Piece::Words(open + 2..text.len()));
-                return pieces;
+                at = open + 2;
             }
         }
     }
