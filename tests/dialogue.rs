@@ -101,7 +101,7 @@ fn plain_text_asks_back_one_line_at_a_time() {
             "and that is right. What if the number",
             "[One line; :hint for more help, :skip for no more questions]",
             "! A hint. I do not hear it yet. What becomes of the unit?",
-            "! A few words will do",
+            "! Write a few words, take a hint",
             "! Fill in the blank. A length becomes ___.",
             "> [✓ an area]",
             "✓ Yes.",

@@ -43,6 +43,8 @@ pub enum Action {
     Bottom,
     /// To the next thing that can have the focus.
     NextFocus,
+    /// On, where nothing waits for an answer.
+    Forward,
     /// Out of a field, out of the help.
     Leave,
     /// Hand in what the editor holds.
@@ -166,7 +168,8 @@ fn of_button(key: KeyEvent) -> Action {
 
 fn of_page(key: KeyEvent) -> Action {
     match key.code {
-        KeyCode::Enter | KeyCode::Right | KeyCode::Char('l') => Action::Enter,
+        KeyCode::Enter => Action::Enter,
+        KeyCode::Right | KeyCode::Char('l') => Action::Forward,
         KeyCode::Char(' ') => Action::PageDown,
         KeyCode::Left | KeyCode::Backspace | KeyCode::Char('h') => Action::Back,
         KeyCode::Up | KeyCode::Char('k') => Action::Up,

@@ -46,6 +46,8 @@ pub struct LessonScreen {
     follow: Option<usize>,
     /// The cell of the screen at the upper left of the ball, where there is one.
     pub ball_at: Option<(u16, u16)>,
+    /// The screen that the window was last made for.
+    fitted: String,
     /// Rows in which the page is seen.
     pub window: usize,
     /// Said before the lesson starts, until a key is pressed.
@@ -80,6 +82,7 @@ impl LessonScreen {
             scroll: 0,
             follow: None,
             ball_at: None,
+            fitted: String::new(),
             window: 1,
             greeting,
             leaving_unsaved: None,
@@ -103,7 +106,15 @@ impl LessonScreen {
             self.page = Page::new(&self.shown.blocks, width, self.palette);
             self.laid_out_for = width;
         }
+        // A note below takes its lines from the page: what was read last stays in view.
+        let lost = self.window.saturating_sub(height as usize);
+        let at_end = self.scroll >= self.last_scroll();
+        let noted = at_end && lost <= 3 && self.fitted == self.shown.key;
         self.window = height as usize;
+        self.fitted.clone_from(&self.shown.key);
+        if noted {
+            self.scroll = self.last_scroll();
+        }
         self.scroll = self.follow.unwrap_or(self.scroll).min(self.last_scroll());
     }
 
@@ -207,6 +218,7 @@ impl LessonScreen {
         match action {
             Action::Quit | Action::QuitAll => return self.leave(),
             Action::Enter => return self.enter(),
+            Action::Forward => return self.forward(),
             Action::HandIn => return self.hand_in(),
             Action::OpenEditor if matches!(self.field, Field::Code(_)) => return Flow::OpenEditor,
             Action::OpenEditor => {}
@@ -216,7 +228,7 @@ impl LessonScreen {
             }
             Action::Play => {}
             Action::Back => return self.send_if(self.shown.can.back, Msg::Back),
-            Action::Skip => return self.send_if(self.shown.can.skip, Msg::Skip),
+            Action::Skip => return self.skip(),
             Action::Hint => return self.send_if(self.shown.can.hint.is_some(), Msg::Hint),
             Action::Up => self.up_or_down(false),
             Action::Down => self.up_or_down(true),
@@ -294,12 +306,35 @@ impl LessonScreen {
         }
     }
 
+    /// Goes on as Enter does, but leaves nothing unanswered: the same key moves cursors.
+    fn forward(&mut self) -> Flow {
+        if matches!(self.field, Field::None) || self.has_more_below() {
+            return self.enter();
+        }
+        self.focus = self.field.focus();
+        Flow::Stay
+    }
+
+    /// Skips, and says how to come back where several pages are passed over.
+    fn skip(&mut self) -> Flow {
+        let passed = self.shown.skip_label.strip_prefix("skip the ");
+        let passed = passed.map(|what| format!("The {what} is skipped. ← goes back to it."));
+        let flow = self.send_if(self.shown.can.skip, Msg::Skip);
+        self.greeting.extend(passed);
+        flow
+    }
+
     fn hand_in(&mut self) -> Flow {
         match &self.field {
             Field::Editor(_) | Field::Code(_) => {
                 let text = self.field.text().unwrap_or_default();
                 self.typed = None;
-                self.send(Msg::Answer(text.trim_end().to_owned()))
+                // A shader's first lines may be empty for a reason; an explanation's are not.
+                let text = match &self.field {
+                    Field::Editor(_) => text.trim(),
+                    _ => text.trim_end(),
+                };
+                self.send(Msg::Answer(text.to_owned()))
             }
             Field::Place(ball) => {
                 let answer = ball.answer();
@@ -473,7 +508,6 @@ fn is_own_ball(block: &Block) -> bool {
     matches!(block, Block::Picture { own: Some(_), .. })
 }
 
-/// Whether a field made for one serves for the other, text and all.
 /// The cell of a ball that lies under a cell of the screen.
 fn inside(at: (u16, u16), size: (u16, u16), clicked: (u16, u16)) -> Option<(u16, u16)> {
     let column = clicked.0.checked_sub(at.0)?;
@@ -481,6 +515,7 @@ fn inside(at: (u16, u16), size: (u16, u16), clicked: (u16, u16)) -> Option<(u16,
     (column < size.0 && row < size.1).then_some((column, row))
 }
 
+/// Whether a field made for one serves for the other, text and all.
 fn same_input(a: &Input, b: &Input) -> bool {
     match (a, b) {
         (Input::Text { label: a, .. }, Input::Text { label: b, .. })

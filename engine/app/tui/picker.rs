@@ -76,7 +76,7 @@ impl Picker {
             Action::Down => self.at = (self.at + 1).min(self.entries.len().saturating_sub(1)),
             Action::Top => self.at = 0,
             Action::Bottom => self.at = self.entries.len().saturating_sub(1),
-            Action::Enter => {
+            Action::Enter | Action::Forward => {
                 if let Some(entry) = self.entries.get(self.at) {
                     return Chosen::Lesson {
                         lesson: Arc::clone(&entry.lesson),

@@ -8,7 +8,7 @@ use ratatui::widgets::{Block, Clear};
 use super::style::Palette;
 
 const KEYS: [(&str, &str); 19] = [
-    ("Enter, →, l", "go on; answer; open"),
+    ("Enter, →, l", "go on; Enter also answers"),
     ("←, h", "back one screen; nothing is lost"),
     ("↑ ↓, k j", "scroll, or choose"),
     ("PgUp PgDn, Space", "scroll by pages"),
@@ -29,10 +29,7 @@ const KEYS: [(&str, &str); 19] = [
     ("Ctrl-L", "draw the screen again"),
     ("? F1", "this help"),
     ("", ""),
-    (
-        "Numbers",
-        "0.56, 5.6e-1, 0,56 or arithmetic: 0.4^4, 1/pi, sqrt(2)",
-    ),
+    ("Numbers", "0.56, 0,56 or arithmetic: 0.4^4, 1/pi, cos(60°)"),
 ];
 
 /// Rows that the help could show beyond those it shows.

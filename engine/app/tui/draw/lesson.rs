@@ -289,6 +289,8 @@ fn keys(screen: &LessonScreen) -> Vec<Key> {
             }
             if let Input::Reply { .. } = view.input {
                 keys.push(key("Esc s", &view.skip_label));
+            } else if view.can.skip {
+                keys.push(key("Esc s", "skip"));
             }
             let rest = [
                 ("Esc", "leave field"),
@@ -321,6 +323,9 @@ fn keys(screen: &LessonScreen) -> Vec<Key> {
         }
         (Focus::Editor, _) => {
             keys.push(key("Ctrl-S", "hand in"));
+            if view.can.skip {
+                keys.push(key("Esc s", "skip"));
+            }
             let rest = [
                 ("Esc", "leave field"),
                 ("F1", "help"),

@@ -132,18 +132,21 @@ fn entry_lines(entry: &Entry, here: bool, width: usize, palette: Palette) -> Vec
         }
         lines.push(Line::from(spans));
     }
-    let mut state = vec![
-        Span::raw("     "),
-        Span::styled(format!("{sign} "), palette.tone(tone)),
-        Span::styled(entry.summary.state.words(), palette.tone(tone)),
-    ];
+    let state = text::wrap_plain(
+        &entry.summary.state.words(),
+        width.saturating_sub(5),
+        &format!("{sign} "),
+        "  ",
+    );
+    lines.extend(
+        state
+            .into_iter()
+            .map(|line| Line::styled(format!("     {line}"), palette.tone(tone))),
+    );
     if !entry.summary.due.is_empty() {
-        state.push(Span::styled(
-            format!("  ! {} due again", entry.summary.due.len()),
-            palette.key(),
-        ));
+        let due = format!("     ! {} due again", entry.summary.due.len());
+        lines.push(Line::styled(due, palette.key()));
     }
-    lines.push(Line::from(state));
     if here {
         let summary = text::wrap_plain(&entry.lesson.summary, width.saturating_sub(5), "", "");
         lines.extend(

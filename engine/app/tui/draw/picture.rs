@@ -22,7 +22,7 @@ pub fn height(width: u16) -> u16 {
 }
 
 /// What the colours of the third panel say.
-pub const COLOURS: &str = "blue: too dark · white: right · orange: too bright";
+pub const COLOURS: &str = "blue: too dark · white, line: right · orange: too bright";
 
 /// What the signs there say, where there are no colours.
 pub const SIGNS: &str = "- too dark · = right · + too bright";

@@ -212,7 +212,7 @@ impl Session {
             }
             Open::Opinion => Decided::note("A moment: a second opinion is asked for."),
             Open::Reply(..) => {
-                Decided::note("A few words will do; more help can be had, and so can an end.")
+                Decided::note("Write a few words, take a hint, or end the questions.")
             }
             Open::Step(..) => {
                 Decided::note("Your answer first; a hint helps, and skipping is allowed.")

@@ -374,16 +374,18 @@ impl Session {
                 .iter()
                 .flat_map(|e| &e.rubric.misconception)
         };
-        self.slips()
-            .iter()
-            .map(|slip| {
-                let says = all().find(|m| m.id == slip.id).map(|m| m.says.as_str());
-                vec![text(match says {
-                    Some(says) => format!("You said something like: “{says}”"),
-                    None => format!("A slip in the numbers: {}.", slip.id.replace('-', " ")),
-                })]
-            })
-            .collect()
+        let mut said: Vec<String> = Vec::new();
+        let mut computed: Vec<String> = Vec::new();
+        for slip in self.slips() {
+            match all().find(|m| m.id == slip.id) {
+                Some(m) => said.push(format!("You said something like: “{}”", m.says)),
+                None => computed.push(slip.id.replace('-', " ")),
+            }
+        }
+        if !computed.is_empty() {
+            said.push(format!("Slips in the exercises: {}.", computed.join("; ")));
+        }
+        said.into_iter().map(|line| vec![text(line)]).collect()
     }
 }
 

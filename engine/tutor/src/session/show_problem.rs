@@ -214,7 +214,7 @@ fn said(lesson: &Lesson, exercise: &Exercise, problem: &Problem, turn: &Turn) ->
                     }
                     _ => Vec::new(),
                 };
-                let value = confirmed(problem, step);
+                let value = confirmed(exercise, problem, step);
                 if value.is_empty() {
                     blocks.extend(under(tone, title, after));
                 } else {
@@ -281,14 +281,20 @@ fn under(tone: Tone, title: &str, blocks: Vec<Block>) -> Vec<Block> {
 }
 
 /// What a right answer is told: the value itself, so that rounding is seen.
-fn confirmed(problem: &Problem, step: &str) -> Vec<Inline> {
+fn confirmed(exercise: &Exercise, problem: &Problem, step: &str) -> Vec<Inline> {
     match problem.truth(step) {
         Some(_) if problem.is_stale() => Vec::new(),
         // An exercise that asks for one thing only has no name for it.
         Some((_, shown)) if problem.asked == ["answer"] => vec![Inline::Math(shown)],
+        Some((_, shown)) if is_line(exercise, step) => vec![text(format!("Line {shown}."))],
         Some((ask, shown)) if !ask.is_empty() => vec![Inline::Math(format!("{ask} = {shown}"))],
         Some(_) | None => Vec::new(),
     }
+}
+
+/// Whether the number of a line is asked for.
+fn is_line(exercise: &Exercise, step: &str) -> bool {
+    matches!(exercise.task, Task::FindTheMistake { .. }) && step == "line"
 }
 
 /// How a step is called when asked for.
