@@ -96,18 +96,51 @@ pub fn wrap(pieces: &[Piece], width: usize) -> Vec<Pieces> {
         word_width: 0,
         space: None,
     };
-    for piece in pieces {
-        for letter in piece.text.chars() {
-            match letter {
-                '\n' => wrapper.new_line(),
-                ' ' | '\t' => wrapper.space(piece.role),
-                _ if letter.is_control() => {}
-                _ => wrapper.letter(letter, piece.role),
-            }
+    let letters: Vec<(char, Role)> = pieces
+        .iter()
+        .flat_map(|piece| piece.text.chars().map(|letter| (letter, piece.role)))
+        .collect();
+    let text: String = letters.iter().map(|(letter, _)| letter).collect();
+    let mut held = held_spaces(&text, width.min(LONGEST_HELD));
+    for (letter, role) in letters {
+        match letter {
+            '\n' => wrapper.new_line(),
+            ' ' if held.next() == Some(true) => wrapper.letter(letter, role),
+            ' ' | '\t' => wrapper.space(role),
+            _ if letter.is_control() => {}
+            _ => wrapper.letter(letter, role),
         }
     }
     wrapper.finish_word();
     wrapper.lines
+}
+
+/// The widest piece of a formula that is held together at the end of a line.
+const LONGEST_HELD: usize = 20;
+
+/// For each space of a text whether the line stays whole there: beside a lone sign of a formula,
+/// so that `(n − 1)/(n + 1)` is not read in two halves. Long formulas break all the same.
+fn held_spaces(text: &str, widest: usize) -> impl Iterator<Item = bool> + use<> {
+    let is_sign = |word: &str| matches!(word, "=" | "+" | "−" | "·" | "/" | "<" | ">" | "≈" | "×");
+    let mut held = Vec::new();
+    for line in text.split('\n') {
+        let words: Vec<&str> = line.split(' ').collect();
+        let mut chain = words[0].width();
+        for (index, pair) in words.windows(2).enumerate() {
+            // A sign is of no use without what follows it.
+            let after = match is_sign(pair[1]) {
+                true => words.get(index + 2).map_or(0, |word| word.width() + 1),
+                false => 0,
+            };
+            let both = !pair[0].is_empty() && !pair[1].is_empty();
+            let holds = both
+                && (is_sign(pair[0]) || is_sign(pair[1]))
+                && chain + 1 + pair[1].width() + after <= widest;
+            chain = pair[1].width() + if holds { chain + 1 } else { 0 };
+            held.push(holds);
+        }
+    }
+    held.into_iter()
 }
 
 struct Wrapper {
@@ -497,7 +530,23 @@ mod tests {
         check_wrap("one two three", 7, &["one two", "three"]);
         check_wrap("one two three", 8, &["one two", "three"]);
         check_wrap("abcdefghij kl", 4, &["abcd", "efgh", "ij", "kl"]);
-        check_wrap("N·H = 0.95 α²", 6, &["N·H =", "0.95", "α²"]);
+        check_wrap("N·H = 0.95 α²", 6, &["N·H", "= 0.95", "α²"]);
+        // A formula stays whole, unless it is long.
+        check_wrap(
+            "so (n − 1)/(n + 1) = 0.2",
+            17,
+            &["so", "(n − 1)/(n + 1)", "= 0.2"],
+        );
+        check_wrap(
+            "the middle, N·V = 1, is",
+            18,
+            &["the middle,", "N·V = 1, is"],
+        );
+        check_wrap(
+            "a + b + c + d + e + f + g + h",
+            24,
+            &["a + b + c + d + e", "+ f + g + h"],
+        );
         check_wrap("a\nb  c", 9, &["a", "b c"]);
         check_wrap("長い言葉", 4, &["長い", "言葉"]);
         check_wrap("bell\u{7} and \u{1b}[31m", 20, &["bell and [31m"]);

@@ -43,7 +43,12 @@ pub fn draw(plot: &PlotView, palette: Palette, area: Rect, buffer: &mut Buffer) 
     Line::styled(plot.title.clone(), palette.title()).render(row(area.y), buffer);
 
     let chart_rows = area.height - below - 2;
-    let y = Scale::of(plot.y_range, plot.y_log, usize::from(chart_rows / 3));
+    let y = Scale::of(
+        plot.y_range,
+        plot.y_log,
+        plot.y_label.contains("degrees"),
+        usize::from(chart_rows / 3),
+    );
     let gutter = y
         .ticks
         .iter()
@@ -56,7 +61,12 @@ pub fn draw(plot: &PlotView, palette: Palette, area: Rect, buffer: &mut Buffer) 
         width: area.width - gutter - 2,
         height: chart_rows,
     };
-    let x = Scale::of(plot.x_range, plot.x_log, usize::from(chart.width / 10));
+    let x = Scale::of(
+        plot.x_range,
+        plot.x_log,
+        plot.x_label.contains("degrees"),
+        usize::from(chart.width / 10),
+    );
     draw_axes(&x, &y, palette, chart, buffer);
     let named = |label: &str, log: bool| format!("{label}{}", if log { " (log)" } else { "" });
     let y_label = Line::styled(named(&plot.y_label, plot.y_log), palette.quiet());
@@ -187,12 +197,12 @@ struct Scale {
 }
 
 impl Scale {
-    fn of((from, to): (f64, f64), log: bool, most_ticks: usize) -> Self {
+    fn of((from, to): (f64, f64), log: bool, degrees: bool, most_ticks: usize) -> Self {
         let most = most_ticks.clamp(2, 8);
         if log && from > 0.0 && to > from {
             Self::log(from, to, most)
         } else {
-            Self::linear(from, to, most)
+            Self::linear(from, to, degrees, most)
         }
     }
 
@@ -222,17 +232,20 @@ impl Scale {
         }
     }
 
-    /// Round numbers within the range.
-    fn linear(from: f64, to: f64, most: usize) -> Self {
+    /// Round numbers within the range; parts of a right angle where degrees are meant.
+    fn linear(from: f64, to: f64, degrees: bool, most: usize) -> Self {
         let to = if to > from { to } else { from + 1.0 };
         let span = to - from;
         let rough = span / most as f64;
         let power = 10f64.powf(rough.log10().floor());
+        let enough = |step: &f64| *step >= rough * 0.999;
+        let angle = [5.0, 10.0, 15.0, 30.0, 45.0, 90.0].into_iter().find(enough);
         let step = [1.0, 2.0, 2.5, 5.0]
             .map(|factor| factor * power)
             .into_iter()
-            .find(|step| *step >= rough * 0.999)
+            .find(enough)
             .unwrap_or(10.0 * power);
+        let step = angle.filter(|_| degrees && rough > 2.0).unwrap_or(step);
         let first = (from / step - 1e-9).ceil() as i64;
         let last = (to / step + 1e-9).floor() as i64;
         let ticks = (first..=last.min(first + 20))
@@ -266,7 +279,11 @@ mod tests {
 
     #[track_caller]
     fn check(range: (f64, f64), log: bool, most: usize, ticks: &[&str]) {
-        let scale = Scale::of(range, log, most);
+        check_scale(&Scale::of(range, log, false, most), ticks);
+    }
+
+    #[track_caller]
+    fn check_scale(scale: &Scale, ticks: &[&str]) {
         let labels: Vec<&str> = scale
             .ticks
             .iter()
@@ -296,8 +313,16 @@ mod tests {
     }
 
     #[test]
+    fn degrees_are_parts_of_a_right_angle() {
+        let degrees = |to: f64, most: usize| Scale::of((0.0, to), false, true, most);
+        check_scale(&degrees(90.0, 2), &["0", "45", "90"]);
+        check_scale(&degrees(90.0, 5), &["0", "30", "60", "90"]);
+        check_scale(&degrees(4.0, 4), &["0", "1", "2", "3", "4"]);
+    }
+
+    #[test]
     fn a_value_stands_where_its_number_says() {
-        let scale = Scale::of((0.01, 100.0), true, 6);
+        let scale = Scale::of((0.01, 100.0), true, false, 6);
         assert_eq!(scale.share(1.0), Some(0.5));
         assert_eq!(scale.share(0.0), None);
         assert_eq!(scale.share(1000.0), None);
