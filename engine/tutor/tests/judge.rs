@@ -8,23 +8,20 @@ use tutor::judge::evaluate::{Evaluation, Marked, Row, evaluate};
 use tutor::judge::{Judge, Verdict, check_examples};
 use tutor::rubric::Rubric;
 
-#[derive(Deserialize)]
-struct Rubrics {
-    rubric: Vec<Rubric>,
-}
-
 fn rubrics() -> Vec<Rubric> {
     [
-        include_str!("rubric/ggx-d.toml"),
-        include_str!("rubric/smith-g2.toml"),
-        include_str!("rubric/schlick-fresnel.toml"),
+        include_str!("../../../lessons/01-ggx-d.toml"),
+        include_str!("../../../lessons/02-smith-g2.toml"),
+        include_str!("../../../lessons/03-schlick-fresnel.toml"),
     ]
     .into_iter()
     .flat_map(|text| {
-        toml::from_str::<Rubrics>(text)
-            .expect("a file of rubrics")
-            .rubric
+        let (lesson, findings) = tutor::load::load("lesson.toml", text);
+        lesson
+            .unwrap_or_else(|| panic!("a lesson: {findings:?}"))
+            .explain
     })
+    .map(|explain| explain.rubric)
     .collect()
 }
 
@@ -85,6 +82,27 @@ fn follows_other_voices() {
     assert!(figures.kappa.expect("several verdicts") >= 0.85);
     assert!(figures.coverage.value().expect("answers") >= 0.92);
     assert!(figures.false_pass.value().expect("answers") <= 0.02);
+    assert_eq!(figures.misled.hits, 0);
+}
+
+/// Weights learnt for a sentence that no lesson has any more would be left out in silence.
+#[test]
+fn weights_belong_to_criteria_of_the_lessons() {
+    let rubrics = rubrics();
+    let mut lines = include_str!("../src/judge/evidence.txt").lines();
+    let mut found = 0;
+    while let Some(line) = lines.next() {
+        let Some(head) = line.strip_prefix("= ") else {
+            continue;
+        };
+        let (item, id) = head.split_once(' ').expect("an item and a criterion");
+        let (id, _) = id.split_once(' ').expect("a criterion and a number");
+        let rubric = rubrics.iter().find(|it| it.item == item);
+        let criterion = rubric.and_then(|it| it.criterion(id)).expect(head);
+        assert_eq!(Some(criterion.says), lines.next(), "{head}");
+        found += 1;
+    }
+    assert!(found >= 40, "{found}");
 }
 
 /// The writers set aside before any answer was read. Run once, when the judge is done:

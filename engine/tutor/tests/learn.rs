@@ -1,27 +1,19 @@
 //! What marked answers teach: phrases, with what each gains and costs on other writers.
 
-use serde::Deserialize;
 use tutor::judge::evaluate::Marked;
 use tutor::judge::learn::{Learned, List, learn};
 use tutor::rubric::{Expectation, Rubric};
 
-#[derive(Deserialize)]
-struct Rubrics {
-    rubric: Vec<Rubric>,
-}
-
 fn rubric(item: &str) -> Rubric {
     let files = [
-        include_str!("rubric/ggx-d.toml"),
-        include_str!("rubric/smith-g2.toml"),
+        include_str!("../../../lessons/01-ggx-d.toml"),
+        include_str!("../../../lessons/02-smith-g2.toml"),
     ];
     files
         .into_iter()
-        .flat_map(|text| {
-            toml::from_str::<Rubrics>(text)
-                .expect("a file of rubrics")
-                .rubric
-        })
+        .filter_map(|text| tutor::load::load("lesson.toml", text).0)
+        .flat_map(|lesson| lesson.explain)
+        .map(|explain| explain.rubric)
         .find(|rubric| rubric.item == item)
         .expect("a rubric of that id")
 }
@@ -33,8 +25,10 @@ fn marks() -> Vec<Marked> {
         .collect()
 }
 
-/// The rubric with nothing but sentences, as an author begins.
+/// The rubric with nothing but sentences, as an author begins: of a question that nobody has
+/// weighed answers to.
 fn without_phrases(mut rubric: Rubric) -> Rubric {
+    rubric.item.insert_str(0, "new-");
     for e in &mut rubric.expectation {
         e.phrases.clear();
         e.against.clear();
@@ -57,7 +51,11 @@ fn kappa(learned: &Learned) -> (f64, f64) {
 #[test]
 fn an_author_without_phrases_is_given_some_that_help_on_other_writers() {
     for item in ["ggx-d/explain", "smith-g2/explain-3"] {
-        let learned = learn(&without_phrases(rubric(item)), &marks());
+        let mut marks = marks();
+        marks
+            .iter_mut()
+            .for_each(|it| it.item.insert_str(0, "new-"));
+        let learned = learn(&without_phrases(rubric(item)), &marks);
         assert!(learned.answers >= 20 && learned.writers >= 20, "{item}");
         assert!(!learned.proposals.is_empty(), "{item}");
         for proposal in &learned.proposals {

@@ -121,7 +121,7 @@ impl Reading {
     /// What stands on the other side of "than".
     fn compared(&self, list: &[Mention], next: usize, found: &Match) -> Option<Mention> {
         let than = (found.end..(found.end + 5).min(self.tokens.len()))
-            .find(|&i| self.tokens[i].is("than") || self.tokens[i].is("compared"))?;
+            .find(|&i| grammar::compares(&self.tokens, i))?;
         list.get(next..)?
             .iter()
             .find(|m| {
@@ -167,13 +167,15 @@ impl Reading {
         // "darker than the centre, which is a quarter": what stands right before is meant.
         let first = self.clause.partition_point(|&c| c < clause);
         if first > 0
-            && self.tokens[first].is("which")
+            && matches!(self.tokens[first].word.as_str(), "which" | "that")
             && list
                 .get(next.wrapping_sub(1))
                 .is_none_or(|m| m.start < first)
-            && let Some(m) = list[..next.min(list.len())]
-                .last()
-                .filter(|m| m.class == PLACE && m.end + 1 >= first)
+            && let Some(m) = list[..next.min(list.len())].last().filter(|m| {
+                m.end + 1 >= first
+                    && (m.class == PLACE && self.tokens[first].is("which")
+                        || m.class == QUANTITY && m.end == first)
+            })
         {
             return Some(self.with_partner(list, m, Held::Local));
         }
@@ -242,7 +244,7 @@ impl Reading {
                 .take(3)
                 .find(|&i| is_preposition(&self.tokens[i].word));
             let trailing = preposition.is_some_and(|i| m.start <= i + 4)
-                && !gap.clone().any(|i| self.tokens[i].is("than"));
+                && !gap.clone().any(|i| grammar::compares(&self.tokens, i));
             if trailing
                 && before.is_none_or(|prev| {
                     self.clause[prev.start] != clause
@@ -273,8 +275,7 @@ impl Reading {
         if let Some(m) = after_here.filter(|m| {
             !(m.start - 1..m.start).any(|i| self.tokens[i].is("than")) && m.start - found.end <= 8
         }) {
-            let than_before = (found.end..m.start)
-                .any(|i| self.tokens[i].is("than") || self.tokens[i].is("compared"));
+            let than_before = (found.end..m.start).any(|i| grammar::compares(&self.tokens, i));
             if !than_before {
                 return local(m);
             }
@@ -317,7 +318,7 @@ impl Reading {
             return None;
         }
         let held = if self.sentence[prev.start] == self.sentence[found.start]
-            || self.refers_back(found.start)
+            || prev.class != CAUSE && self.refers_back(found.start)
         {
             Held::Inherited
         } else {

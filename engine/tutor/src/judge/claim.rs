@@ -44,6 +44,8 @@ impl Reading {
         self.take_back(lexicon);
         self.dismiss();
         self.hearsay(lexicon);
+        self.addressed();
+        self.left_open();
         self.complete(lexicon);
     }
 
@@ -131,7 +133,10 @@ impl Reading {
             if first && matches!(token.kind, Kind::Word | Kind::Value) {
                 asks = grammar::asks(&token.word);
                 let next = self.tokens.get(at + 1).map(|t| t.word.as_str());
-                asked[self.sentence[at]] = next.is_some_and(|n| grammar::inverts(&token.word, n));
+                let hedged = self.hedges(at);
+                asked[self.sentence[at]] =
+                    !hedged && next.is_some_and(|n| grammar::inverts(&token.word, n));
+                asks &= !hedged;
                 first = false;
             }
             if token.ends_sentence() {
@@ -152,6 +157,16 @@ impl Reading {
         }
         stated |= !first;
         (asked, !stated)
+    }
+
+    /// "Is it maybe that ...?", "Isn't it that ...?": says it, if shyly.
+    fn hedges(&self, first: usize) -> bool {
+        let word = |i: usize| self.tokens.get(i).map_or("", |t| t.word.as_str());
+        let shy = |i: usize| matches!(word(i), "maybe" | "perhaps" | "possibly" | "because");
+        word(first + 1) == "not"
+            || matches!(word(first + 1), "it" | "that" | "this")
+                && word(first) == "is"
+                && (shy(first + 2) || word(first + 2) == "that")
     }
 
     /// For each token, whether it stands behind "I wonder whether".
@@ -178,12 +193,14 @@ impl Reading {
     fn lists(&self, lexicon: &Lexicon) -> Vec<bool> {
         let mut words = vec![0usize; self.sentences()];
         let mut glue = words.clone();
+        let mut breaks = words.clone();
         let mut mentions = words.clone();
         let mut joined = words.clone();
         for (at, token) in self.tokens.iter().enumerate() {
             words[self.sentence[at]] += usize::from(matches!(token.kind, Kind::Word | Kind::Value));
             let joins = token.is("and") || token.is("or");
             glue[self.sentence[at]] += usize::from(grammar::is_glue(&token.word) && !joins);
+            breaks[self.sentence[at]] += usize::from(token.is(";") || token.is("--"));
             joined[self.sentence[at]] += usize::from(joins);
         }
         for statement in self.statements.iter().filter(|s| !s.compared) {
@@ -223,7 +240,10 @@ impl Reading {
                 let parts = commas[s] + joined[s];
                 let named =
                     mentions[s] >= 4 && parts >= 3 && mentions[s] <= parts + 1 && glue[s] == 0;
-                long || bare || offered || named || (glue[s] == 0 && torn[s])
+                // "grazing; 1; metal; F0; gold; high".
+                let chopped =
+                    breaks[s] >= 5 && glue[s] == breaks[s] && words[s] <= 2 * (breaks[s] + 1);
+                chopped || long || bare || offered || named || (glue[s] == 0 && torn[s])
             })
             .collect()
     }

@@ -39,6 +39,14 @@ pub fn denials(
                     .get(at + 1)
                     .is_none_or(|t| t.kind != Kind::Word && t.kind != Kind::Value))
             || starts_with(tokens, at, &["nothing", "but"])
+            || token.is("nothing") && at > 0 && nearly(&tokens[at - 1].word)
+            // "Isn't the answer that it gets darker?"
+            || token.is("not") && expects_a_yes(tokens, at, sentence)
+            // "Most goes in; what does not is 4 %."
+            || token.is("not")
+                && tokens
+                    .get(at + 1)
+                    .is_some_and(|t| matches!(t.word.as_str(), "is" | "are"))
             || starts_with(tokens, at, &["nothing", "else"]);
         if report.is_none() && (!negator || not_only || idle) {
             at += 1;
@@ -98,6 +106,27 @@ pub fn denials(
     }
     less(lexicon, tokens, matches, &mut denied);
     denied
+}
+
+/// Whether a denial opens a question, which expects a yes.
+fn expects_a_yes(tokens: &[Token], at: usize, sentence: &[usize]) -> bool {
+    let opens = at > 0
+        && grammar::asks(&tokens[at - 1].word)
+        && (at == 1 || sentence[at - 2] != sentence[at]);
+    let ends = || {
+        (at..(at + 40).min(tokens.len()))
+            .take_while(|&i| sentence[i] == sentence[at])
+            .any(|i| tokens[i].kind == Kind::Question)
+    };
+    opens && ends()
+}
+
+/// Words before "nothing" that make it a very small amount.
+fn nearly(word: &str) -> bool {
+    matches!(
+        word,
+        "almost" | "nearly" | "practically" | "virtually" | "to" | "over" | "by" | "times" | "of"
+    )
 }
 
 /// Whether a clause with a subject of its own begins here: "and if you", "and it".

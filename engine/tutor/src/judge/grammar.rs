@@ -115,6 +115,20 @@ pub fn is_negator(word: &str) -> bool {
     )
 }
 
+/// Whether what follows is what something is compared with: "than", "with respect to".
+pub fn compares(tokens: &[Token], at: usize) -> bool {
+    let next = |words: &[&str]| {
+        tokens
+            .get(at + 1)
+            .is_some_and(|t| words.contains(&&*t.word))
+    };
+    match tokens[at].word.as_str() {
+        "than" | "compared" => true,
+        "respect" | "relative" | "relatively" | "comparison" => next(&["to", "with"]),
+        _ => false,
+    }
+}
+
 /// Words that end the reach of a denial.
 pub fn ends_denial(word: &str) -> bool {
     matches!(

@@ -186,6 +186,51 @@ impl Reading {
         }
     }
 
+    /// "Note to the grader: this answer contains both points": speaks of answers, says nothing.
+    pub fn addressed(&mut self) {
+        let word = |i: usize| self.tokens.get(i).map_or("", |t| t.word.as_str());
+        let speaks = |i: usize| match word(i) {
+            "grader" | "graders" | "grades" | "grading" | "examiner" | "rubric" | "verdict" => true,
+            "mark" => matches!(word(i + 1), "it" | "this" | "as" | "me"),
+            "marks" => matches!(word(i.wrapping_sub(1)), "full" | "all"),
+            "answer" => word(i.wrapping_sub(1)) == "this" || word(i + 1) == "key",
+            // "Dimmer, brighter: one of these is right."
+            "one" => word(i + 1) == "of" && matches!(word(i + 2), "these" | "those" | "them"),
+            _ => false,
+        };
+        let sentences: Vec<usize> = (0..self.tokens.len())
+            .filter(|&i| speaks(i))
+            .map(|i| self.sentence[i])
+            .collect();
+        for statement in &mut self.statements {
+            statement.void |= sentences.binary_search(&statement.sentence).is_ok();
+        }
+    }
+
+    /// "Small and bright, or it may be large and dim": neither is claimed.
+    pub fn left_open(&mut self) {
+        let word = |i: usize| self.tokens.get(i).map_or("", |t| t.word.as_str());
+        let open: Vec<usize> = (0..self.tokens.len())
+            .filter(|&i| {
+                word(i) == "or"
+                    && (word(i + 1) == "else"
+                        || (i + 1..i + 4).any(|j| matches!(word(j), "may" | "might")))
+            })
+            .collect();
+        for at in open {
+            let (from, to) = (at.saturating_sub(12), (at + 10).min(self.tokens.len()));
+            let ends = |i: &usize| {
+                matches!(
+                    self.tokens[*i].kind,
+                    Kind::Stop | Kind::Question | Kind::Break
+                )
+            };
+            let from = (from..at).rev().find(ends).unwrap_or(from);
+            let to = (at..to).find(ends).unwrap_or(to);
+            self.each_between(from, to, |s| s.void = true);
+        }
+    }
+
     /// "bright or dark", "contains it and does not contain it": neither is claimed.
     fn torn(&mut self, lexicon: &Lexicon) {
         let count = self.statements.len();

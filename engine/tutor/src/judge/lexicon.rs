@@ -294,6 +294,9 @@ impl Lexicon {
                     continue;
                 }
                 let distance = strsim::osa_distance(word, candidate);
+                if letters <= SHORT && length == letters && is_another_word(word, candidate) {
+                    continue;
+                }
                 if distance <= allowed && best.is_none_or(|(least, _)| distance < least) {
                     best = Some((distance, candidate));
                 }
@@ -340,6 +343,20 @@ impl Lexicon {
         let (taken, _) = best?;
         concepts.retain(|&id| self.concept(id).role != Role::Plain);
         Some((taken, concepts))
+    }
+}
+
+/// Up to this length, words of the language lie so close together that a consonant exchanged for
+/// another makes another word ("taped", "tamed"), not a slip of the finger.
+const SHORT: usize = 6;
+
+/// Whether two words of one length differ by one consonant in place of another.
+fn is_another_word(word: &str, candidate: &str) -> bool {
+    let is_vowel = |c: char| matches!(c, 'a' | 'e' | 'i' | 'o' | 'u' | 'y');
+    let mut differing = word.chars().zip(candidate.chars()).filter(|(a, b)| a != b);
+    match (differing.next(), differing.next()) {
+        (Some((a, b)), None) => !(is_vowel(a) && is_vowel(b)),
+        _ => false,
     }
 }
 

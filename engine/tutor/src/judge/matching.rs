@@ -75,6 +75,7 @@ impl Atom {
                     *best = Hit {
                         score,
                         range: quote(reading, statement),
+                        own_words: false,
                     };
                 }
                 continue;
@@ -97,7 +98,11 @@ impl Atom {
             let range = quote(reading, statement);
             let best: &mut Hit = hits.entry(statement.sentence).or_default();
             if score > best.score + 1e-9 && !ears.deaf.contains(&range) {
-                *best = Hit { score, range };
+                *best = Hit {
+                    score,
+                    range,
+                    own_words: false,
+                };
             }
         }
         hits
@@ -299,7 +304,12 @@ impl Atom {
                 .any(|i| reading.denied[i] && self.words.contains(&reading.forms[i].stem));
             if score >= PERHAPS && denied == self.denied {
                 let range = (reading.tokens[start].start, reading.tokens[end - 1].end);
-                hits.insert(sentence, Hit { score, range });
+                let hit = Hit {
+                    score,
+                    range,
+                    own_words: true,
+                };
+                hits.insert(sentence, hit);
             }
             start = end.max(start + 1);
         }
@@ -403,7 +413,7 @@ fn sentence_around(reading: &Reading, at: usize) -> (usize, usize) {
 }
 
 /// The words of a statement and of what it is about, where they stand in one sentence.
-fn quote(reading: &Reading, statement: &Statement) -> (usize, usize) {
+pub fn quote(reading: &Reading, statement: &Statement) -> (usize, usize) {
     let (mut first, mut last) = (statement.tokens.0, statement.tokens.1);
     for about in statement
         .about

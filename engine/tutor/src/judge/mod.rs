@@ -6,9 +6,11 @@
 mod arithmetic;
 mod attach;
 mod claim;
+mod criterion;
 mod denial;
 mod ellipsis;
 pub mod evaluate;
+mod evidence;
 mod examples;
 mod grammar;
 #[cfg(test)]
@@ -28,18 +30,20 @@ mod subject;
 mod symbols;
 mod text;
 mod values;
+pub mod weigh;
 
 use std::collections::BTreeSet;
 
 use crate::rubric::Rubric;
+use evidence::{Features, Heard, Weights};
 pub use examples::{ExampleFinding, check_examples};
 use lexicon::{MATERIAL, QUANTITY, lexicon};
 use parse::{Reading, Setting};
-use phrase::{Ears, Hit, PERHAPS, Phrase, STATED};
+use phrase::{Hit, Phrase, STATED};
 use text::Token;
 
 /// Changes whenever the same answer may get another verdict; kept in every log.
-pub const JUDGE_VERSION: &str = "3";
+pub const JUDGE_VERSION: &str = "4";
 
 /// What an answer is worth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -120,6 +124,8 @@ struct Criterion {
     required: bool,
     /// Whether it keeps from passing.
     blocking: bool,
+    /// What all that is said speaks for it, where that was learnt.
+    weights: Option<Weights>,
 }
 
 /// A rubric made ready for judging.
@@ -137,6 +143,9 @@ pub struct Judge {
 /// So many words of the question in a row are an echo of it.
 const ECHO: usize = 5;
 
+/// It is a pass only where it is at least so likely that all that it needs is as found.
+const SURE_OF_A_PASS: f64 = 0.6;
+
 /// What was found on one criterion.
 #[derive(Clone, Debug, PartialEq)]
 enum Finding {
@@ -148,6 +157,12 @@ enum Finding {
 impl Judge {
     /// Prepares a rubric; do it once, it costs more than judging.
     pub fn new(rubric: &Rubric) -> Judge {
+        Judge::with_evidence(rubric, evidence::LEARNT)
+    }
+
+    /// The same with other weights than those that come with the program: what
+    /// [`weigh::weigh`] made of marked answers. An empty text leaves the phrases alone to judge.
+    pub fn with_evidence(rubric: &Rubric, learnt: &str) -> Judge {
         let lexicon = lexicon();
         let prompt = phrase::prepare(&rubric.prompt);
         let setting = setting(parse::read(
@@ -165,7 +180,7 @@ impl Judge {
                 .collect::<Vec<_>>()
         };
         let generic = |id: u16| matches!(lexicon.concept(id).name.as_str(), "whole" | "highlight");
-        let criterion = |id: &str, phrases: &[String], against: &[String]| {
+        let criterion = |id: &str, says: &str, phrases: &[String], against: &[String]| {
             let phrases = read(phrases);
             let topics: BTreeSet<u16> = phrases
                 .iter()
@@ -181,17 +196,18 @@ impl Judge {
                 unless: Vec::new(),
                 required: false,
                 blocking: false,
+                weights: Weights::read(lexicon, learnt, &rubric.item, id, says),
             }
         };
         let expectations = rubric.expectation.iter().map(|e| Criterion {
             required: e.required,
-            ..criterion(&e.id, &e.phrases, &e.against)
+            ..criterion(&e.id, &e.says, &e.phrases, &e.against)
         });
         let misconceptions = rubric.misconception.iter().map(|m| Criterion {
             is_misconception: true,
             unless: m.unless.clone(),
             blocking: m.blocking,
-            ..criterion(&m.id, &m.phrases, &m.against)
+            ..criterion(&m.id, &m.says, &m.phrases, &m.against)
         });
         let understood = setting.order[QUANTITY]
             .iter()
@@ -224,6 +240,53 @@ impl Judge {
         reading: &Reading,
         findings: impl Iterator<Item = Finding>,
     ) -> Judgement {
+        let mut findings: Vec<Finding> = findings.collect();
+        self.count_words_once(reading, &mut findings);
+        let judgement = self.sum_up(answer, &findings);
+        if judgement.verdict != Verdict::Pass {
+            return judgement;
+        }
+        match self.weakest(reading, &findings) {
+            Some((at, doubt)) => {
+                findings[at] = doubt;
+                self.sum_up(answer, &findings)
+            }
+            None => judgement,
+        }
+    }
+
+    /// Where an answer would pass and it is not likely enough that all of what a pass needs is
+    /// as found: the least likely of these, and the doubt about it.
+    fn weakest(&self, reading: &Reading, findings: &[Finding]) -> Option<(usize, Finding)> {
+        let mut sure = 1.0;
+        let mut least: Option<(usize, f64)> = None;
+        for (at, (criterion, finding)) in self.criteria.iter().zip(findings).enumerate() {
+            let Some(weights) = criterion.weights.as_ref() else {
+                continue;
+            };
+            let likely = match finding {
+                Finding::Stated(hit) if criterion.required => hit.score,
+                Finding::Absent if criterion.blocking && criterion.unless.is_empty() => {
+                    let log_odds = weights.log_odds(&reading.features);
+                    1.0 - evidence::likelihood(true, Heard::Not, log_odds)
+                }
+                _ => continue,
+            };
+            sure *= likely;
+            if least.is_none_or(|(_, so_far)| likely < so_far) {
+                least = Some((at, likely));
+            }
+        }
+        let (at, _) = least.filter(|_| sure < SURE_OF_A_PASS)?;
+        let hit = match &findings[at] {
+            Finding::Stated(hit) => hit.clone(),
+            _ => self.criteria[at].strongest(reading)?,
+        };
+        Some((at, Finding::Perhaps(hit)))
+    }
+
+    /// The judgement that follows from findings.
+    fn sum_up(&self, answer: &str, findings: &[Finding]) -> Judgement {
         let mut judgement = Judgement {
             verdict: Verdict::Unsure,
             met: Vec::new(),
@@ -231,13 +294,11 @@ impl Judge {
             unsure: Vec::new(),
             why: Vec::new(),
         };
-        let mut findings: Vec<Finding> = findings.collect();
-        self.count_words_once(reading, &mut findings);
         let stated = |id: &String| {
-            let mut all = self.criteria.iter().zip(&findings);
+            let mut all = self.criteria.iter().zip(findings);
             all.any(|(c, found)| c.id == *id && matches!(found, Finding::Stated(_)))
         };
-        for (criterion, finding) in self.criteria.iter().zip(&findings) {
+        for (criterion, finding) in self.criteria.iter().zip(findings) {
             if criterion.unless.iter().any(stated) {
                 continue;
             }
@@ -308,7 +369,14 @@ impl Judge {
                 Finding::Absent => false,
             };
             if counted && criterion.blocking {
-                *finding = criterion.find(reading, self.understood, &harmless);
+                *finding = match criterion.find(reading, self.understood, &harmless) {
+                    Finding::Stated(hit) | Finding::Perhaps(hit)
+                        if harmless.contains(&hit.range) =>
+                    {
+                        Finding::Absent
+                    }
+                    other => other,
+                };
             }
         }
     }
@@ -316,7 +384,16 @@ impl Judge {
     fn read(&self, answer: &str) -> Reading {
         let tokens = phrase::prepare(answer);
         let mute = self.mute(answer, &tokens);
-        parse::read(lexicon(), tokens, &self.setting, &mute)
+        let mut reading = parse::read(lexicon(), tokens, &self.setting, &mute);
+        if self.criteria.iter().any(|it| it.weights.is_some()) {
+            reading.features = evidence::features(lexicon(), &reading);
+        }
+        reading
+    }
+
+    /// What an answer says, as it is weighed.
+    fn features(&self, answer: &str) -> Features {
+        evidence::features(lexicon(), &self.read(answer))
     }
 
     /// Tokens that are the question's own words, or ids of the rubric: nobody's statement.
@@ -426,64 +503,6 @@ impl Judge {
             }
         }
         out
-    }
-}
-
-impl Criterion {
-    fn find(&self, reading: &Reading, understood: u128, deaf: &[(usize, usize)]) -> Finding {
-        let ears = Ears {
-            deaf,
-            ..self.ears(understood)
-        };
-        let mut best = Hit::default();
-        for phrase in &self.phrases {
-            let hit = self.hear(phrase, reading, ears);
-            if hit.score > best.score {
-                best = hit;
-            }
-        }
-        let against = self
-            .against
-            .iter()
-            .map(|p| p.said(lexicon(), reading, ears).score)
-            .fold(0.0, f64::max);
-        self.settle(best, against, reading)
-    }
-
-    fn ears(&self, understood: u128) -> Ears<'static> {
-        Ears {
-            strict: self.is_misconception,
-            understood,
-            deaf: &[],
-        }
-    }
-
-    /// How well a phrase of this criterion is said.
-    fn hear(&self, phrase: &Phrase, reading: &Reading, ears: Ears<'_>) -> Hit {
-        let mut hit = phrase.said(lexicon(), reading, ears);
-        if hit.score > 0.6 && phrase.gainsaid(lexicon(), reading) {
-            // Said and gainsaid: which of the two stands is not for a machine to guess.
-            hit.score = 0.6;
-        }
-        hit
-    }
-
-    /// What follows from the best of its phrases and the best of those against it.
-    fn settle(&self, best: Hit, against: f64, reading: &Reading) -> Finding {
-        match best.score {
-            _ if against >= STATED => Finding::Absent,
-            score if score >= STATED => Finding::Stated(best),
-            score if score >= PERHAPS => Finding::Perhaps(best),
-            // It speaks of the right thing in words that are not known: no ground to say no.
-            _ if self.required => match reading.unread(lexicon(), &self.topics) {
-                Some(range) => Finding::Perhaps(Hit {
-                    score: PERHAPS,
-                    range,
-                }),
-                None => Finding::Absent,
-            },
-            _ => Finding::Absent,
-        }
     }
 }
 

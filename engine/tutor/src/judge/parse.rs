@@ -7,6 +7,7 @@
 use std::collections::BTreeMap;
 
 use super::denial::denials;
+use super::evidence::Features;
 use super::grammar;
 use super::lexicon::{CAUSE, CLASSES, Form, Id, Lexicon, MATERIAL, PLACE, Role, SURFACE};
 use super::refer::{in_order, resolve_ordinals, suppose, the_one_for};
@@ -94,6 +95,8 @@ pub struct Reading {
     pub generic: Vec<Id>,
     /// For each clause, the statements of it (a range, as they come in order).
     pub of_clause: Vec<(usize, usize)>,
+    /// What it says, as it is weighed; empty where nothing is.
+    pub features: Features,
 }
 
 /// What a question gives its answers: the order of the things it names.
@@ -176,6 +179,14 @@ fn find(lexicon: &Lexicon, tokens: &[Token], forms: &[Form], without: Option<usi
             at += 1;
             continue;
         };
+        // "becomes more dark": the measure is the adjective's.
+        let measures = tokens[at + taken - 1].is("more")
+            && taken > 1
+            && says(lexicon, forms, at + taken, without);
+        if measures {
+            at += taken;
+            continue;
+        }
         // "the same normal" is not "the same".
         let article = matches!(
             tokens[at].word.as_str(),
@@ -208,9 +219,27 @@ fn find(lexicon: &Lexicon, tokens: &[Token], forms: &[Form], without: Option<usi
     out
 }
 
+/// Whether something is said by the expression that starts here.
+fn says(lexicon: &Lexicon, forms: &[Form], at: usize, without: Option<usize>) -> bool {
+    at < forms.len()
+        && lexicon
+            .longest(forms, at, without)
+            .is_some_and(|(_, concepts)| {
+                concepts
+                    .iter()
+                    .any(|&id| lexicon.concept(id).role == Role::State)
+            })
+}
+
 /// Places, surfaces and facets named inside a longer expression: the mirror of "a perfect
 /// mirror".
 fn embedded(lexicon: &Lexicon, forms: &[Form], start: usize, end: usize, out: &mut Vec<Match>) {
+    // A "tiny mirror" is a facet, of whichever surface.
+    let is_facet = out.last().is_some_and(|m| {
+        m.concepts
+            .iter()
+            .any(|&id| lexicon.concept(id).name == "facets")
+    });
     for at in start..end {
         // The whole expression itself is not looked for again.
         let within = if at == start { end - 1 } else { end };
@@ -221,7 +250,7 @@ fn embedded(lexicon: &Lexicon, forms: &[Form], start: usize, end: usize, out: &m
             Role::Entity(PLACE) => {
                 !matches!(lexicon.concept(*id).name.as_str(), "whole" | "highlight")
             }
-            Role::Entity(class) => class == SURFACE || class == MATERIAL,
+            Role::Entity(class) => class == SURFACE && !is_facet || class == MATERIAL,
             Role::Thing => matches!(
                 lexicon.concept(*id).name.as_str(),
                 "facets" | "normals" | "halfvector"

@@ -70,6 +70,8 @@ pub struct Hit {
     pub score: f64,
     /// Byte range of the words that say it.
     pub range: (usize, usize),
+    /// Whether it is said in words of the phrase's own, which nothing else is heard in.
+    pub own_words: bool,
 }
 
 /// Splits, spells out and recognises: the way every text goes before it is read.
@@ -193,8 +195,10 @@ impl Phrase {
                 }
             }
         }
+        let own_words = self.atoms.iter().any(|atom| !atom.words.is_empty());
         highest(hits.values().filter(|hit| !ears.deaf.contains(&hit.range)))
             .filter(|hit| hit.score >= PERHAPS)
+            .map(|hit| Hit { own_words, ..hit })
             .unwrap_or_default()
     }
 

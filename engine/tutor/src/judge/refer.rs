@@ -62,10 +62,10 @@ pub fn resolve_ordinals(
         .into_iter()
         .find(|&class| setting.order[class].len() >= 2)
     else {
-        return;
+        return resolve_places(lexicon, tokens, matches);
     };
     if class == PLACE {
-        return;
+        return resolve_places(lexicon, tokens, matches);
     }
     let mut named: Vec<Id> = Vec::new();
     let mut last: Option<Id> = None;
@@ -113,6 +113,11 @@ pub fn resolve_ordinals(
                 | "image"
                 | "it"
                 | "version"
+                | "does"
+                | "scatters"
+                | "spreads"
+                | "reflects"
+                | "goes"
         ) || !is_word(tokens.get(at + 1));
         let stands_alone = after_article || names_one;
         let any_other = at > 0
@@ -143,6 +148,19 @@ pub fn resolve_ordinals(
             let mut all = setting.order[class].iter().copied();
             all.find(|&id| Some(id) != topic)
         };
+        // "First a dot, then a haze."
+        let article = matches!(follows, "a" | "an");
+        let turn = |from: usize, to: usize, word: &str| {
+            (from..to.min(tokens.len())).any(|i| {
+                tokens[i].is(word) && tokens.get(i + 1).is_some_and(|t| t.is("a") || t.is("an"))
+            })
+        };
+        let in_turn = article
+            && match word {
+                "first" => turn(at + 1, at + 14, "then"),
+                "then" => turn(at.saturating_sub(14), at, "first"),
+                _ => false,
+            };
         // "photo 1", "case 2".
         let numbered = matches!(
             word,
@@ -159,6 +177,7 @@ pub fn resolve_ordinals(
         let id = match word {
             _ if numbered && matches!(follows, "#1" | "one") => order.first().copied(),
             _ if numbered && matches!(follows, "#2" | "two") => order.get(1).copied(),
+            "first" | "then" if in_turn => order.get(usize::from(word == "then")).copied(),
             "first" | "former" | "1st" if stands_alone && follows != "place" => {
                 order.first().copied()
             }
@@ -197,6 +216,39 @@ pub fn resolve_ordinals(
     }
     matches.retain(|m| !counted.contains(&m.start));
     matches.extend(resolved);
+    matches.sort_by_key(|m| m.start);
+}
+
+/// "The highlight ..., the outline ...: the latter burns": the last two places named.
+fn resolve_places(lexicon: &Lexicon, tokens: &[Token], matches: &mut Vec<Match>) {
+    let place = |m: &Match| {
+        let mut all = m.concepts.iter().copied();
+        all.find(|&id| {
+            lexicon.concept(id).role == Role::Entity(PLACE) && lexicon.concept(id).name != "whole"
+        })
+    };
+    let (mut former, mut latter): (Option<Id>, Option<Id>) = (None, None);
+    let mut found = Vec::new();
+    let mut next = 0;
+    for (at, token) in tokens.iter().enumerate() {
+        while let Some(m) = matches.get(next).filter(|m| m.start <= at) {
+            if let Some(id) = place(m).filter(|&id| latter != Some(id)) {
+                former = latter.replace(id);
+            }
+            next += 1;
+        }
+        let meant = match token.word.as_str() {
+            "former" => former,
+            "latter" => latter,
+            _ => None,
+        };
+        found.extend(meant.map(|id| Match {
+            start: at,
+            end: at + 1,
+            concepts: vec![id],
+        }));
+    }
+    matches.extend(found);
     matches.sort_by_key(|m| m.start);
 }
 

@@ -21,8 +21,59 @@ enum Subject {
 impl Reading {
     /// Hears nouns that name a measure, and alignments, for what they are.
     pub fn subjects(&mut self, lexicon: &Lexicon) {
+        self.measured();
+        self.clamped(lexicon);
         self.measures(lexicon);
         self.alignments(lexicon);
+    }
+
+    /// "5 pixels wide", "a degree across": so much, which may be little.
+    fn measured(&mut self) {
+        for statement in &mut self.statements {
+            let (start, end) = statement.tokens;
+            let unit = start > 1
+                && matches!(
+                    self.tokens[start - 1].word.as_str(),
+                    "pixel"
+                        | "pixels"
+                        | "degree"
+                        | "degrees"
+                        | "mm"
+                        | "millimetre"
+                        | "millimetres"
+                        | "millimeter"
+                        | "millimeters"
+                )
+                && (self.tokens[start - 2].kind == Kind::Value
+                    || matches!(
+                        self.tokens[start - 2].word.as_str(),
+                        "a" | "one" | "two" | "few" | "three" | "five" | "ten"
+                    ));
+            let extent = end == start + 1
+                && matches!(
+                    self.tokens[start].word.as_str(),
+                    "wide" | "large" | "big" | "broad" | "high" | "tall"
+                );
+            statement.void |= unit && extent;
+        }
+    }
+
+    /// "So people clamp it at 0.02": no ceiling of 1.
+    fn clamped(&mut self, lexicon: &Lexicon) {
+        let Some(capped) = lexicon.id("capped") else {
+            return;
+        };
+        for statement in &mut self.statements {
+            let (start, end) = statement.tokens;
+            let clamps = statement.concepts.contains(&capped)
+                && self.tokens[start].word.starts_with("clamp");
+            let to = (end + 6).min(self.tokens.len());
+            let number = self.tokens[end..to]
+                .iter()
+                .take_while(|t| !t.ends_sentence())
+                .find(|t| t.kind == Kind::Value);
+            statement.void |= clamps && number.is_some_and(|t| !t.is("#1") && !t.is("#rough1"));
+        }
     }
 
     /// "The spread is small", "a narrow spread": the noun names what is measured, the other

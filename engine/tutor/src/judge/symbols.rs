@@ -290,6 +290,10 @@ fn shape(tokens: &[Token], at: usize) -> Found {
         }
     }
     let divided = is(tokens, next + 1, &["divided"]) && is(tokens, next + 2, &["by"]);
+    // `D·F·G / (4 …)` is the whole term, not the visibility.
+    if at > 0 && is(tokens, at - 1, &["*"]) && is(tokens, next, &["g2", "g"]) {
+        return None;
+    }
     if is(tokens, next, &["1", "g2", "g"]) && (divided || is(tokens, next + 1, &["/", "over"])) {
         let one = is(tokens, next, &["1"]);
         next += 2 + usize::from(divided);

@@ -433,8 +433,8 @@ impl Reader<'_> {
             let owns = joins
                 && matches!(self.peek(1), Some('s' | 'S'))
                 && !self.peek(2).is_some_and(char::is_alphanumeric)
-                && text.len() > 4
-                && !matches!(text.as_str(), "there" | "where" | "everything" | "nothing");
+                && text.len() > 2
+                && !is_pronoun(&text);
             if owns {
                 self.at += 2;
                 break;
@@ -513,4 +513,27 @@ impl Reader<'_> {
             _ => self.push(name.to_lowercase(), Kind::Word, from),
         }
     }
+}
+
+/// Words behind which an apostrophe and an s stand for "is".
+fn is_pronoun(word: &str) -> bool {
+    matches!(
+        word,
+        "it" | "he"
+            | "she"
+            | "that"
+            | "this"
+            | "what"
+            | "who"
+            | "how"
+            | "why"
+            | "when"
+            | "let"
+            | "here"
+            | "there"
+            | "where"
+            | "everything"
+            | "nothing"
+            | "something"
+    )
 }

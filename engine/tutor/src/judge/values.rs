@@ -103,7 +103,20 @@ pub fn setting(tokens: &[Token], at: usize) -> Found {
             at - 1,
             &["divided", "divide", "division", "dividing"],
         );
-    if is(tokens, at, &["for", "at", "with", "when"]) && !shares {
+    // "It must sit at exactly 1": a value of D.
+    let holds = at > 0
+        && is(tokens, at, &["at"])
+        && is(
+            tokens,
+            at - 1,
+            &[
+                "sit", "sits", "sitting", "stay", "stays", "stand", "stands", "land", "lands",
+                "settle", "settles", "cap", "caps", "capped", "end", "ends", "up", "arrive",
+                "arrives", "stop", "stops", "clamp", "clamped", "fixed", "remain", "remains",
+                "out",
+            ],
+        );
+    if is(tokens, at, &["for", "at", "with", "when"]) && !shares && !holds {
         let inner = at + 1 + usize::from(is(tokens, at + 1, &["exactly", "precisely", "just"]));
         let value = number(tokens, inner).filter(|&v| v == 0.0 || v == 1.0)?;
         if is(
@@ -198,11 +211,12 @@ pub fn value(tokens: &[Token], at: usize) -> Found {
     if (result - std::f64::consts::FRAC_PI_2).abs() < 1e-3 {
         return found(end - at, "#90deg");
     }
+    // "2·D" is a product, "2× the division" counts.
     let times = is(tokens, end, &["x"])
         || (is(tokens, end, &["*"])
             && !tokens
                 .get(end + 1)
-                .is_some_and(|t| matches!(t.kind, Kind::Value)));
+                .is_some_and(|t| matches!(t.kind, Kind::Value) || t.word.len() <= 2));
     if times && end < tokens.len() {
         let word = name(result).to_owned();
         return Some((
@@ -251,7 +265,7 @@ fn name(value: f64) -> &'static str {
         "#0"
     } else if near(1.0, 1e-12) {
         "#1"
-    } else if near(std::f64::consts::FRAC_1_PI, 2.5e-3) {
+    } else if near(std::f64::consts::FRAC_1_PI, 2.5e-3) || near(0.3, 1e-12) {
         "#1/pi"
     } else if near(0.25, 1e-9) {
         "#1/4"
@@ -263,6 +277,8 @@ fn name(value: f64) -> &'static str {
         "#2"
     } else if near(4.0, 1e-12) {
         "#4"
+    } else if near(16.0, 1e-9) {
+        "#16"
     } else if near(1.5, 0.051) {
         "#1.5"
     } else if (0.7..1.0).contains(&value) {

@@ -1,0 +1,116 @@
+//! How one criterion is found in an answer: by its phrases, and by what all that is said weighs.
+
+use super::evidence::{self, Heard, Weights};
+use super::lexicon::lexicon;
+use super::parse::Reading;
+use super::phrase::{Ears, Hit, PERHAPS, Phrase, STATED};
+use super::{Criterion, Finding, matching};
+
+impl Criterion {
+    pub fn find(&self, reading: &Reading, understood: u128, deaf: &[(usize, usize)]) -> Finding {
+        let ears = Ears {
+            deaf,
+            ..self.ears(understood)
+        };
+        let mut best = Hit::default();
+        for phrase in &self.phrases {
+            let hit = self.hear(phrase, reading, ears);
+            if hit.score > best.score {
+                best = hit;
+            }
+        }
+        let against = self
+            .against
+            .iter()
+            .map(|p| p.said(lexicon(), reading, ears).score)
+            .fold(0.0, f64::max);
+        self.settle(best, against, reading)
+    }
+
+    pub fn ears(&self, understood: u128) -> Ears<'static> {
+        Ears {
+            strict: self.is_misconception,
+            understood,
+            deaf: &[],
+        }
+    }
+
+    /// How well a phrase of this criterion is said.
+    pub fn hear(&self, phrase: &Phrase, reading: &Reading, ears: Ears<'_>) -> Hit {
+        let mut hit = phrase.said(lexicon(), reading, ears);
+        if hit.score > 0.6 && phrase.gainsaid(lexicon(), reading) {
+            // Said and gainsaid: which of the two stands is not for a machine to guess.
+            hit.score = 0.6;
+        }
+        hit
+    }
+
+    /// What follows from the best of its phrases and the best of those against it.
+    pub fn settle(&self, best: Hit, against: f64, reading: &Reading) -> Finding {
+        let heard = self.by_phrases(best, against, reading);
+        match &self.weights {
+            Some(weights) if against < STATED => self.weighed(weights, heard, reading),
+            _ => heard,
+        }
+    }
+
+    /// The same, all that is said considered.
+    fn weighed(&self, weights: &Weights, found: Finding, reading: &Reading) -> Finding {
+        // What is said in words that only the phrase knows has no weight, and needs none.
+        if matches!(&found, Finding::Stated(hit) if hit.own_words) {
+            return found;
+        }
+        let log_odds = weights.log_odds(&reading.features);
+        let (heard, hit) = match found {
+            Finding::Absent => (Heard::Not, None),
+            Finding::Perhaps(hit) => (Heard::Half, Some(hit)),
+            Finding::Stated(hit) => (Heard::Said, Some(hit)),
+        };
+        // Who says the contrary, and nothing for it, has not said it in other words.
+        let gainsaid = |phrase: &Phrase| phrase.gainsaid(lexicon(), reading);
+        if heard == Heard::Not && !self.is_misconception && self.phrases.iter().any(gainsaid) {
+            return Finding::Absent;
+        }
+        let score = evidence::likelihood(self.is_misconception, heard, log_odds);
+        let (perhaps, stated) = match self.is_misconception {
+            true => (0.4, 0.5),
+            false => (0.4, 0.6),
+        };
+        let hit = hit.or_else(|| self.strongest(reading));
+        match hit.map(|hit| Hit { score, ..hit }) {
+            Some(hit) if score >= stated => Finding::Stated(hit),
+            Some(hit) if score >= perhaps => Finding::Perhaps(hit),
+            _ => Finding::Absent,
+        }
+    }
+
+    /// The words that speak most for it.
+    pub fn strongest(&self, reading: &Reading) -> Option<Hit> {
+        let at = self.weights.as_ref()?.strongest(&reading.features)?;
+        let range = matching::quote(reading, &reading.statements[at]);
+        Some(Hit {
+            score: PERHAPS,
+            range,
+            own_words: false,
+        })
+    }
+
+    /// What follows from its phrases alone.
+    fn by_phrases(&self, best: Hit, against: f64, reading: &Reading) -> Finding {
+        match best.score {
+            _ if against >= STATED => Finding::Absent,
+            score if score >= STATED => Finding::Stated(best),
+            score if score >= PERHAPS => Finding::Perhaps(best),
+            // It speaks of the right thing in words that are not known: no ground to say no.
+            _ if self.required => match reading.unread(lexicon(), &self.topics) {
+                Some(range) => Finding::Perhaps(Hit {
+                    score: PERHAPS,
+                    range,
+                    own_words: false,
+                }),
+                None => Finding::Absent,
+            },
+            _ => Finding::Absent,
+        }
+    }
+}
