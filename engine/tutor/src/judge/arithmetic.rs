@@ -28,16 +28,17 @@ fn term(tokens: &[Token], at: usize, depth: usize) -> Option<(f64, usize)> {
     loop {
         let divide = is(tokens, next, &["/", "over"])
             || (is(tokens, next, &["by", "on"]) && number(tokens, next.wrapping_sub(1)).is_some());
-        let divided_by = is(tokens, next, &["divided"])
-            && is(
-                tokens,
-                next + 1,
-                &["by", "through", "for", "with", "over", "on"],
-            );
+        let through = ["by", "through", "for", "with", "over", "on"];
+        let divided_by = is(tokens, next, &["divided"]) && is(tokens, next + 1, &through);
+        // "zero is divided by zero".
+        let is_divided = is(tokens, next, &["is", "gets", "being", "was"])
+            && is(tokens, next + 1, &["divided"])
+            && is(tokens, next + 2, &through);
         let divided = is(tokens, next, &["divided"]) && number(tokens, next + 1).is_some();
         let times = is(tokens, next, &["*"]);
         let implicit = is(tokens, next, &["(", "pi"]) && !tokens[next].spaced && next > at;
         let skip = match () {
+            () if is_divided => 3,
             () if divided_by => 2,
             () if divide || divided || times => 1,
             () if implicit => 0,
@@ -46,7 +47,7 @@ fn term(tokens: &[Token], at: usize, depth: usize) -> Option<(f64, usize)> {
         let Some((value, end)) = power(tokens, next + skip, depth) else {
             break;
         };
-        total = if divide || divided || divided_by {
+        total = if divide || divided || divided_by || is_divided {
             total / value
         } else {
             total * value

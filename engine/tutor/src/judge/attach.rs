@@ -385,7 +385,7 @@ impl Reading {
             (m.start.saturating_sub(3)..m.start).any(|i| {
                 let compares = matches!(
                     self.tokens[i].word.as_str(),
-                    "than" | "against" | "compared"
+                    "than" | "against" | "compared" | "unlike"
                 );
                 compares && self.clause[i] == self.clause[m.start]
             })

@@ -22,7 +22,7 @@ impl Reading {
             statement.void =
                 muted || asked[statement.sentence] || listed[statement.sentence] || wondered[start];
         }
-        // "a quarter as bright as it should be" does not say bright.
+        // "a quarter as bright as it should be", "not as bright as it should be": dim.
         for statement in &mut self.statements {
             let (start, end) = statement.tokens;
             let share = |t: &Token| {
@@ -37,7 +37,27 @@ impl Reading {
                     || self.tokens[start.saturating_sub(4)..start]
                         .iter()
                         .any(share));
-            statement.void |= measured;
+            let below = self.tokens[start.saturating_sub(4)..start]
+                .iter()
+                .any(share)
+                && !self.tokens[start.saturating_sub(3)..start]
+                    .iter()
+                    .any(|t| t.is("times"));
+            let not = self.tokens[start.saturating_sub(4)..start]
+                .iter()
+                .any(|t| matches!(t.word.as_str(), "not" | "hardly" | "nowhere"));
+            let contrary: Vec<Id> = statement
+                .concepts
+                .iter()
+                .filter_map(|&id| lexicon.concept(id).antonym)
+                .collect();
+            let less = below && !statement.denied || not && statement.denied;
+            if measured && less && !contrary.is_empty() {
+                statement.concepts = contrary;
+                statement.denied = false;
+            } else {
+                statement.void |= measured;
+            }
         }
         self.subjects(lexicon);
         self.pass_through(lexicon);
@@ -100,7 +120,14 @@ impl Reading {
             if at == 0 || self.clause[at] != self.clause[at - 1] {
                 contrasts = matches!(
                     token.word.as_str(),
-                    "while" | "whereas" | "although" | "though" | "which" | "that"
+                    "while"
+                        | "whereas"
+                        | "although"
+                        | "though"
+                        | "which"
+                        | "that"
+                        | "because"
+                        | "since"
                 );
                 contrasts |= self.tokens.get(at + 1).is_some_and(|next| next.is("which"));
                 contrasts |= turned[self.clause[at]];

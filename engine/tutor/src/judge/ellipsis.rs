@@ -82,8 +82,54 @@ impl Reading {
             }
         }
         added.extend(self.answered(lexicon));
+        added.extend(self.does_have_one(lexicon));
         self.statements.extend(added);
         self.statements.sort_by_key(|s| (s.tokens.0, s.tokens.1));
+    }
+
+    /// "There should be no bright edge, and his version has one": so there is one.
+    fn does_have_one(&mut self, lexicon: &Lexicon) -> Vec<Statement> {
+        let mut added = Vec::new();
+        for at in 0..self.tokens.len() {
+            let word = |i: usize| self.tokens.get(i).map_or("", |t| t.word.as_str());
+            if !matches!(
+                word(at),
+                "have" | "has" | "shows" | "show" | "gives" | "gets"
+            ) || word(at + 1) != "one"
+                || self
+                    .tokens
+                    .get(at + 2)
+                    .is_some_and(|t| t.kind == Kind::Word)
+            {
+                continue;
+            }
+            let split = self.statements.partition_point(|s| s.tokens.0 < at);
+            let sentence = self.sentence[at];
+            let clause = self.clause[at];
+            let denied = self.statements[..split]
+                .iter_mut()
+                .rev()
+                .take(6)
+                .take_while(|s| s.sentence == sentence)
+                .find(|s| {
+                    s.denied
+                        && !s.void
+                        && s.concepts
+                            .iter()
+                            .any(|&id| lexicon.concept(id).antonym.is_some())
+                });
+            if let Some(said) = denied {
+                added.push(Statement {
+                    denied: false,
+                    ideal: false,
+                    clause,
+                    tokens: (at, at + 2),
+                    ..said.clone()
+                });
+                said.void = true;
+            }
+        }
+        added
     }
 
     /// "N is not the normal of the facet, H is", "the rim is bright, the centre is not": a verb

@@ -108,6 +108,7 @@ pub fn is_negator(word: &str) -> bool {
             | "without"
             | "hardly"
             | "barely"
+            | "scarcely"
             | "lacks"
             | "unlike"
             | "nowhere"

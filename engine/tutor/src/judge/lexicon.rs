@@ -108,6 +108,8 @@ fn is_filler(word: &str) -> bool {
             | "their"
             | "his"
             | "such"
+            | "extremely"
+            | "incredibly"
     )
 }
 
@@ -155,6 +157,7 @@ impl Lexicon {
             by_shape: BTreeMap::new(),
         };
         let mut antonyms: Vec<(Id, String)> = Vec::new();
+        let mut more = Vec::new();
         for line in text.lines().filter(|line| !line.starts_with('#')) {
             let Some((head, words)) = line.split_once(" = ") else {
                 continue;
@@ -170,6 +173,10 @@ impl Lexicon {
                 }
                 ["state", name, ..] => (*name, Role::State),
                 ["thing", name] => (*name, Role::Thing),
+                ["more", name] => {
+                    more.push((*name, words));
+                    continue;
+                }
                 _ => ("plain", Role::Plain),
             };
             let id = lexicon.concepts.len() as Id;
@@ -184,10 +191,11 @@ impl Lexicon {
                 antonym: None,
                 binary: head.contains(&"binary"),
             });
-            for entry in words.split(',') {
-                for spelled in alternatives(entry.trim()) {
-                    lexicon.add(&spelled, id);
-                }
+            lexicon.add_all(words, id);
+        }
+        for (name, words) in more {
+            if let Some(id) = lexicon.id(name) {
+                lexicon.add_all(words, id);
             }
         }
         for (id, name) in antonyms {
@@ -203,6 +211,14 @@ impl Lexicon {
             }
         }
         lexicon
+    }
+
+    fn add_all(&mut self, words: &str, concept: Id) {
+        for entry in words.split(',') {
+            for spelled in alternatives(entry.trim()) {
+                self.add(&spelled, concept);
+            }
+        }
     }
 
     fn add(&mut self, entry: &str, concept: Id) {

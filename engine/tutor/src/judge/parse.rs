@@ -10,7 +10,7 @@ use super::denial::denials;
 use super::evidence::Features;
 use super::grammar;
 use super::lexicon::{CAUSE, CLASSES, Form, Id, Lexicon, MATERIAL, PLACE, Role, SURFACE};
-use super::refer::{in_order, resolve_ordinals, suppose, the_one_for};
+use super::refer::{in_order, inside_out, once_and_again, resolve_ordinals, suppose, the_one_for};
 use super::text::{Kind, Token};
 
 /// How surely a statement is about something.
@@ -143,6 +143,10 @@ pub fn read(lexicon: &Lexicon, tokens: Vec<Token>, setting: &Setting, mute: &[bo
     let denied = denials(lexicon, &tokens, &matches, &clause, &sentence);
     suppose(lexicon, &tokens, &mut matches, &sentence, setting);
     resolve_ordinals(lexicon, &tokens, &mut matches, setting);
+    once_and_again(lexicon, &tokens, &mut matches, &sentence);
+    if !setting.order[PLACE].is_empty() {
+        inside_out(lexicon, &tokens, &mut matches);
+    }
     the_one_for(lexicon, &tokens, &mut matches, &sentence);
     in_order(lexicon, &tokens, &mut matches, setting);
     let mut heard = vec![false; tokens.len()];
@@ -163,9 +167,23 @@ pub fn read(lexicon: &Lexicon, tokens: Vec<Token>, setting: &Setting, mute: &[bo
         ..Reading::default()
     };
     reading.attach(lexicon, &matches);
-    reading.void(lexicon, mute);
+    let mut mute = mute.to_vec();
+    mute.resize(reading.tokens.len(), false);
+    if setting.order[SURFACE].len() > 1 {
+        on_the_way(&reading.tokens, &mut mute);
+    }
+    reading.void(lexicon, &mute);
     reading.index();
     reading
+}
+
+/// "f = 1, so D is 1/π": what a letter of one's own is worth is not the value asked for.
+fn on_the_way(tokens: &[Token], mute: &mut [bool]) {
+    for at in 2..tokens.len() {
+        let letter = &tokens[at - 2];
+        let own = letter.kind == Kind::Word && letter.word.len() == 1 && !letter.is("d");
+        mute[at] |= own && tokens[at - 1].is("=") && (tokens[at].is("#0") || tokens[at].is("#1"));
+    }
 }
 
 fn find(lexicon: &Lexicon, tokens: &[Token], forms: &[Form], without: Option<usize>) -> Vec<Match> {
@@ -240,6 +258,11 @@ fn embedded(lexicon: &Lexicon, forms: &[Form], start: usize, end: usize, out: &m
             .iter()
             .any(|&id| lexicon.concept(id).name == "facets")
     });
+    let is_singular = out.last().is_some_and(|m| {
+        m.concepts
+            .iter()
+            .any(|&id| lexicon.concept(id).name == "singular")
+    });
     for at in start..end {
         // The whole expression itself is not looked for again.
         let within = if at == start { end - 1 } else { end };
@@ -248,7 +271,8 @@ fn embedded(lexicon: &Lexicon, forms: &[Form], start: usize, end: usize, out: &m
         };
         let specific = |id: &Id| match lexicon.concept(*id).role {
             Role::Entity(PLACE) => {
-                !matches!(lexicon.concept(*id).name.as_str(), "whole" | "highlight")
+                // A ratio that "has a pole" has it where it is infinite.
+                !is_singular && !matches!(lexicon.concept(*id).name.as_str(), "whole" | "highlight")
             }
             Role::Entity(class) => class == SURFACE && !is_facet || class == MATERIAL,
             Role::Thing => matches!(

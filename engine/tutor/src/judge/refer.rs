@@ -33,13 +33,58 @@ pub fn suppose(
                 && m.start < at + 8
                 && m.concepts.iter().any(|&id| ids.contains(&Some(id)))
         });
+        // "If I lower the key, ...".
+        let verb = tokens[at].is("if")
+            && tokens
+                .get(at + 1)
+                .is_some_and(|t| matches!(t.word.as_str(), "i" | "you" | "we" | "he" | "one"))
+            && tokens.get(at + 2).is_some_and(|t| {
+                matches!(
+                    t.word.as_str(),
+                    "lower" | "lowers" | "dim" | "reduce" | "halve" | "dial" | "scale" | "drop"
+                )
+            });
         // "The lamp would dim both alike."
         let would =
             tokens[at].is("would")
                 && matches[..first].iter().rev().take(2).any(|m| {
                     m.end + 1 >= at && m.concepts.iter().any(|&id| ids.contains(&Some(id)))
                 });
-        if names && !tokens[at].is("would") || would {
+        if (names || verb) && !tokens[at].is("would") || would {
+            found.push(Match {
+                start: at,
+                end: at + 1,
+                concepts: vec![artist],
+            });
+        }
+    }
+    // "A dark picture can be pushed": any such picture, not this one.
+    for at in 0..tokens.len() {
+        let opens = at == 0 || tokens[at - 1].ends_sentence();
+        if !opens || !matches!(tokens[at].word.as_str(), "a" | "an" | "any") {
+            continue;
+        }
+        let first = matches.partition_point(|m| m.start <= at);
+        let [said, of, ..] = &matches[first..] else {
+            continue;
+        };
+        let is = |m: &Match, name: &str| {
+            m.concepts
+                .iter()
+                .any(|&id| lexicon.concept(id).name == name)
+        };
+        let general = tokens.get(of.end).is_some_and(|t| {
+            matches!(
+                t.word.as_str(),
+                "can" | "could" | "would" | "will" | "still" | "just" | "keeps" | "has" | "looks"
+            )
+        });
+        if said.start == at + 1
+            && is(said, "dim")
+            && of.start == said.end
+            && is(of, "whole")
+            && general
+        {
             found.push(Match {
                 start: at,
                 end: at + 1,
@@ -114,6 +159,9 @@ pub fn resolve_ordinals(
                 | "it"
                 | "version"
                 | "does"
+                | "mean"
+                | "means"
+                | "gets"
                 | "scatters"
                 | "spreads"
                 | "reflects"
@@ -134,7 +182,10 @@ pub fn resolve_ordinals(
         // "from one end to the other".
         let from_one = (2..6).any(|back| before(back) == "one" && before(back + 1) == "from");
         // "In one case ..., in the other ...".
-        let in_the = before(1) == "the" && matches!(before(2), "in" | "on" | "for" | "with");
+        let end = matches!(follows, "end" | "extreme" | "limit" | "hand")
+            && matches!(before(2), "at" | "to");
+        let in_the =
+            before(1) == "the" && (end || matches!(before(2), "in" | "on" | "for" | "with"));
         let case = matches!(before(1), "in" | "on" | "for")
             && matches!(follows, "case" | "photo" | "picture" | "image" | "ball")
             && tokens[at..].iter().take(40).any(|t| t.is("other"));
@@ -161,6 +212,15 @@ pub fn resolve_ordinals(
                 "then" => turn(at.saturating_sub(14), at, "first"),
                 _ => false,
             };
+        // "On the left a dot, on the right a haze": as the two are asked about, so they stand.
+        let beside = |i: usize| names_side(tokens, i);
+        let sides = matches!(word, "left" | "right")
+            && beside(at)
+            && (at.saturating_sub(SIDES)..(at + SIDES).min(tokens.len())).any(|i| {
+                matches!(tokens[i].word.as_str(), "left" | "right")
+                    && tokens[i].word != word
+                    && beside(i)
+            });
         // "photo 1", "case 2".
         let numbered = matches!(
             word,
@@ -177,6 +237,7 @@ pub fn resolve_ordinals(
         let id = match word {
             _ if numbered && matches!(follows, "#1" | "one") => order.first().copied(),
             _ if numbered && matches!(follows, "#2" | "two") => order.get(1).copied(),
+            "left" | "right" if sides => order.get(usize::from(word == "right")).copied(),
             "first" | "then" if in_turn => order.get(usize::from(word == "then")).copied(),
             "first" | "former" | "1st" if stands_alone && follows != "place" => {
                 order.first().copied()
@@ -251,6 +312,81 @@ fn resolve_places(lexicon: &Lexicon, tokens: &[Token], matches: &mut Vec<Match>)
     matches.extend(found);
     matches.sort_by_key(|m| m.start);
 }
+
+/// "It is applied once inside V and then again outside": twice in all.
+pub fn once_and_again(
+    lexicon: &Lexicon,
+    tokens: &[Token],
+    matches: &mut Vec<Match>,
+    sentence: &[usize],
+) {
+    let Some(twice) = lexicon.id("twice") else {
+        return;
+    };
+    let mut found = Vec::new();
+    for at in (0..tokens.len()).filter(|&at| tokens[at].is("once")) {
+        let near = (at + 1..(at + REACH).min(tokens.len()))
+            .take_while(|&i| sentence[i] == sentence[at])
+            .skip_while(|&i| !matches!(tokens[i].word.as_str(), "and" | "then"));
+        let again = near
+            .into_iter()
+            .find(|&i| matches!(tokens[i].word.as_str(), "again" | "once"));
+        found.extend(again.map(|i| Match {
+            start: i,
+            end: i + 1,
+            concepts: vec![twice],
+        }));
+    }
+    found.retain(|m| matches.binary_search_by_key(&m.start, |m| m.start).is_err());
+    matches.extend(found);
+    matches.sort_by_key(|m| m.start);
+}
+
+/// "Too bright outside of that circle, too dark inside": the two say where, of each other.
+pub fn inside_out(lexicon: &Lexicon, tokens: &[Token], matches: &mut Vec<Match>) {
+    let (Some(centre), Some(rim)) = (lexicon.id("centre"), lexicon.id("rim")) else {
+        return;
+    };
+    let mut found = Vec::new();
+    for at in 0..tokens.len() {
+        let (id, other) = match tokens[at].word.as_str() {
+            "inside" | "within" => (centre, ["outside", "outside"]),
+            "outside" => (rim, ["inside", "within"]),
+            _ => continue,
+        };
+        // "inside V" names what it is inside of.
+        let alone = tokens.get(at + 1).is_none_or(|t| {
+            !matches!(t.kind, Kind::Word | Kind::Value | Kind::Op)
+                || matches!(
+                    t.word.as_str(),
+                    "and" | "but" | "while" | "too" | "is" | "everything"
+                )
+        });
+        let near = at.saturating_sub(REACH)..(at + REACH).min(tokens.len());
+        if alone
+            && tokens[near]
+                .iter()
+                .any(|t| other.iter().any(|word| t.is(word)))
+        {
+            found.push((at, id));
+        }
+    }
+    if found.is_empty() {
+        return;
+    }
+    matches.retain(|m| {
+        !(m.end == m.start + 1 && found.binary_search_by_key(&m.start, |&(at, _)| at).is_ok())
+    });
+    matches.extend(found.into_iter().map(|(at, id)| Match {
+        start: at,
+        end: at + 1,
+        concepts: vec![id],
+    }));
+    matches.sort_by_key(|m| m.start);
+}
+
+/// So far apart stand two words that are each other's contrary, at most.
+const REACH: usize = 12;
 
 /// "The histogram of the polished one has a peak, the one for the sandblasted ...": what the
 /// sentence spoke of first.
@@ -376,6 +512,32 @@ fn opposed(lexicon: &Lexicon, tokens: &[Token], matches: &mut Vec<Match>, order:
         concepts: vec![id],
     }));
     matches.sort_by_key(|m| m.start);
+}
+
+/// So far apart stand the left one and the right one, at most.
+const SIDES: usize = 40;
+
+/// Whether "left" or "right" names one of two pictures here.
+fn names_side(tokens: &[Token], at: usize) -> bool {
+    let word = |i: usize| tokens.get(i).map_or("", |t| t.word.as_str());
+    let article = at > 0 && matches!(word(at - 1), "the" | "on" | "d");
+    let noun = matches!(
+        word(at + 1),
+        "one"
+            | "picture"
+            | "photo"
+            | "image"
+            | "plate"
+            | "ball"
+            | "sphere"
+            | "panel"
+            | "shot"
+            | "frame"
+            | ";"
+    );
+    let joins = |i: usize| matches!(word(i), "and" | "or");
+    let pair = joins(at + 1) || at > 0 && joins(at - 1);
+    (article || noun) && !pair && word(at + 1) != "away"
 }
 
 fn is_word(token: Option<&Token>) -> bool {

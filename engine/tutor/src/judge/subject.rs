@@ -22,6 +22,9 @@ impl Reading {
     /// Hears nouns that name a measure, and alignments, for what they are.
     pub fn subjects(&mut self, lexicon: &Lexicon) {
         self.measured();
+        self.bounded(lexicon);
+        self.only_less();
+        self.objects(lexicon);
         self.clamped(lexicon);
         self.measures(lexicon);
         self.alignments(lexicon);
@@ -58,6 +61,87 @@ impl Reading {
         }
     }
 
+    /// "It can't be more than one", "it never passes 1": a bound is no value.
+    fn bounded(&mut self, lexicon: &Lexicon) {
+        for statement in &mut self.statements {
+            let start = statement.tokens.0;
+            let number = statement.concepts.iter().any(|&id| {
+                matches!(
+                    lexicon.concept(id).name.as_str(),
+                    "one" | "zero" | "oneoverpi"
+                )
+            });
+            let bound = start > 0
+                && matches!(
+                    self.tokens[start - 1].word.as_str(),
+                    "than"
+                        | "above"
+                        | "below"
+                        | "under"
+                        | "beyond"
+                        | "exceed"
+                        | "exceeds"
+                        | "past"
+                        | "surpass"
+                        | ">"
+                        | "<"
+                );
+            statement.void |= number && bound;
+        }
+    }
+
+    /// "The pits eat more light" shines no brighter; "does not prefer any
+    /// direction" says nothing of directions.
+    fn objects(&mut self, lexicon: &Lexicon) {
+        let is = |statement: &Statement, names: &[&str]| {
+            statement
+                .concepts
+                .iter()
+                .any(|&id| names.contains(&lexicon.concept(id).name.as_str()))
+        };
+        for index in 1..self.statements.len() {
+            let (before, after) = self.statements.split_at_mut(index);
+            let (verb, object) = (&before[index - 1], &mut after[0]);
+            if verb.clause != object.clause || object.tokens.0 > verb.tokens.1 + 1 {
+                continue;
+            }
+            let lost = is(verb, &["absorbs", "dim", "fall", "missing"]);
+            let light = is(object, &["bright"])
+                && (object.tokens.0..object.tokens.1).any(|i| self.tokens[i].is("light"));
+            let prefers = is(verb, &["varies"]) && verb.denied && object.denied;
+            let direction = is(object, &["spread", "concentrated"])
+                && matches!(
+                    self.tokens[object.tokens.0].word.as_str(),
+                    "any" | "one" | "a" | "single"
+                );
+            object.void |= lost && light || prefers && direction;
+        }
+    }
+
+    /// "The centre is brighter too, only less so": less of the same, not little of it. "Less
+    /// attenuation": only the other word says something.
+    fn only_less(&mut self) {
+        for index in 0..self.statements.len() {
+            let (start, end) = self.statements[index].tokens;
+            let less = end == start + 1 && self.tokens[start].is("less");
+            let of_the_same = start > 0
+                && matches!(
+                    self.tokens[start - 1].word.as_str(),
+                    "only" | "just" | "though" | "but" | "if"
+                )
+                && (self
+                    .tokens
+                    .get(end)
+                    .is_none_or(|t| t.is("so") || t.kind == Kind::Stop)
+                    || self.tokens.get(end).is_some_and(|t| t.is("of"))
+                        && self.tokens.get(end + 1).is_some_and(|t| t.is("it")));
+            let measures = self.statements.get(index + 1).is_some_and(|next| {
+                next.tokens.0 == end && next.denied != self.statements[index].denied
+            });
+            self.statements[index].void |= less && (of_the_same || measures);
+        }
+    }
+
     /// "So people clamp it at 0.02": no ceiling of 1.
     fn clamped(&mut self, lexicon: &Lexicon) {
         let Some(capped) = lexicon.id("capped") else {
@@ -72,7 +156,15 @@ impl Reading {
                 .iter()
                 .take_while(|t| !t.ends_sentence())
                 .find(|t| t.kind == Kind::Value);
-            statement.void |= clamps && number.is_some_and(|t| !t.is("#1") && !t.is("#rough1"));
+            let at_one = number.is_some_and(|t| t.is("#1") || t.is("#rough1"));
+            // "unless you clamp": what one does against it.
+            let does = self.tokens[start].is("clamp")
+                && start > 0
+                && matches!(
+                    self.tokens[start - 1].word.as_str(),
+                    "you" | "we" | "i" | "people" | "must" | "to" | "everyone" | "they" | "and"
+                );
+            statement.void |= clamps && !at_one && (number.is_some() || does);
         }
     }
 
@@ -92,6 +184,9 @@ impl Reading {
                         | "diffusion"
                         | "blur"
                         | "peak"
+                        | "pulse"
+                        | "spike"
+                        | "bump"
                 );
             let opposite = noun
                 .concepts
@@ -100,15 +195,19 @@ impl Reading {
             let Some(opposite) = opposite.filter(|_| names_measure) else {
                 continue;
             };
+            // "A thin spike" is a spike; "the spike is smeared out" is none.
+            let by_contrary =
+                matches!(self.tokens[start].word.as_str(), "pulse" | "spike" | "bump");
             let little = |s: &Statement| {
                 !s.denied
                     && !s.compared
                     && s.concepts.iter().any(|&id| {
                         id == opposite
-                            || matches!(
-                                lexicon.concept(id).name.as_str(),
-                                "small" | "dim" | "fall" | "low" | "zero"
-                            )
+                            || !by_contrary
+                                && matches!(
+                                    lexicon.concept(id).name.as_str(),
+                                    "small" | "dim" | "fall" | "low" | "zero"
+                                )
                     })
             };
             let before = index

@@ -73,10 +73,22 @@ fn number_words(mut tokens: Vec<Token>) -> Vec<Token> {
             .checked_sub(1)
             .map(|i| tokens[i].word.clone())
             .unwrap_or_default();
+        let opens = at == 0
+            || matches!(
+                tokens[at - 1].kind,
+                Kind::Stop | Kind::Break | Kind::Comma | Kind::Question
+            );
         let number = match tokens[at].word.as_str() {
             "zero" | "nought" | "naught" | "nil" | "null" => "0",
             "unity" => "1",
             "one" if is(&tokens, at + 1, &["over", "divided"]) => "1",
+            // "Zero: ... One: ...", "for one, ...".
+            "one"
+                if is(&tokens, at + 1, &[";", "->", "=", ","])
+                    && (opens || previous == "for" && at > 0) =>
+            {
+                "1"
+            }
             "one"
                 if matches!(
                     previous.as_str(),
@@ -115,6 +127,8 @@ fn number_words(mut tokens: Vec<Token>) -> Vec<Token> {
             {
                 "1"
             }
+            "hundred" if is(&tokens, at + 1, &["percent", "pct", "%", "per"]) => "100",
+            "per" if is(&tokens, at + 1, &["cent"]) => "%",
             "percent" | "pct" => "%",
             _ => continue,
         };
@@ -338,7 +352,7 @@ fn shape(tokens: &[Token], at: usize) -> Found {
     if index(at) && is(tokens, at + 1, &["-"]) && index(at + 2) {
         // The sum follows within a few tokens, behind a division: ") / ( n + 1".
         let sum =
-            (at + 3..at + 9).find(|&i| is(tokens, i, &["+"]) && index(i - 1) && index(i + 1))?;
+            (at + 3..at + 12).find(|&i| is(tokens, i, &["+"]) && index(i - 1) && index(i + 1))?;
         if !(at + 3..sum).any(|i| is(tokens, i, &["/", "over"])) {
             return None;
         }

@@ -214,9 +214,10 @@ pub fn value(tokens: &[Token], at: usize) -> Found {
     // "2·D" is a product, "2× the division" counts.
     let times = is(tokens, end, &["x"])
         || (is(tokens, end, &["*"])
-            && !tokens
-                .get(end + 1)
-                .is_some_and(|t| matches!(t.kind, Kind::Value) || t.word.len() <= 2));
+            && !tokens.get(end + 1).is_some_and(|t| {
+                t.kind == Kind::Value
+                    || t.word.len() <= 2 && matches!(t.kind, Kind::Word | Kind::Op)
+            }));
     if times && end < tokens.len() {
         let word = name(result).to_owned();
         return Some((
