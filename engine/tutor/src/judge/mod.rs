@@ -19,6 +19,7 @@ mod hearsay;
 pub mod learn;
 mod lexicon;
 mod matching;
+mod pairs;
 mod parse;
 mod phrase;
 mod refer;

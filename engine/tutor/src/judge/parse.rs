@@ -10,7 +10,8 @@ use super::denial::denials;
 use super::evidence::Features;
 use super::grammar;
 use super::lexicon::{CAUSE, CLASSES, Form, Id, Lexicon, MATERIAL, PLACE, Role, SURFACE};
-use super::refer::{in_order, inside_out, once_and_again, resolve_ordinals, suppose, the_one_for};
+use super::pairs::{inside_out, once_and_again};
+use super::refer::{in_order, resolve_ordinals, suppose, the_one_for};
 use super::text::{Kind, Token};
 
 /// How surely a statement is about something.
