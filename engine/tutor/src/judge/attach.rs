@@ -32,6 +32,9 @@ impl Reading {
             is_state[found.start..found.end].fill(true);
         }
         let ideal = self.ideals();
+        let both: Vec<usize> = (0..self.tokens.len())
+            .filter(|&at| grammar::means_both(&self.tokens, at))
+            .collect();
         let mut cursor = [0usize; CLASSES];
         for found in matches {
             let mut about: [Option<About>; CLASSES] = Default::default();
@@ -64,6 +67,16 @@ impl Reading {
                                 .is_some_and(|a| a.held == Held::Remembered)))
             {
                 about[PLACE] = None;
+            }
+            // "Both lobes are centred on one normal": not of the one named last.
+            for class in [SURFACE, MATERIAL] {
+                let of_both = about[class].as_ref().is_some_and(|a| {
+                    let since = both.partition_point(|&at| at < a.tokens.1);
+                    a.held < Held::Local && both.get(since).is_some_and(|&at| at < found.end)
+                });
+                if of_both {
+                    about[class] = None;
+                }
             }
             let (clause, sentence) = (self.clause[found.start], self.sentence[found.start]);
             let statement = Statement {
@@ -178,6 +191,17 @@ impl Reading {
             })
         {
             return Some(self.with_partner(list, m, Held::Local));
+        }
+        // "It is white there and gloomy in the middle": the place named before.
+        let there = self.tokens.get(found.end).is_some_and(|t| t.is("there"))
+            && !self
+                .tokens
+                .get(found.end + 1)
+                .is_some_and(|t| grammar::is_copula(&t.word));
+        if let Some(m) = before.filter(|m| {
+            there && m.class == PLACE && self.sentence[m.start] == self.sentence[found.start]
+        }) {
+            return local(m);
         }
         let after_here = after.filter(|m| self.clause[m.start] == clause);
         // "the ball has the larger highlight": an article before the word binds it forward.

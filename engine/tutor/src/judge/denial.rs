@@ -38,6 +38,17 @@ pub fn denials(
                 && tokens
                     .get(at + 1)
                     .is_none_or(|t| t.kind != Kind::Word && t.kind != Kind::Value))
+            // "nearly (not exactly) uniform"
+            || starts_with(tokens, at, &["not"])
+                && tokens.get(at + 1).is_some_and(|t| {
+                    matches!(t.word.as_str(), "exactly" | "quite" | "perfectly" | "strictly")
+                })
+                && tokens
+                    .get(at + 2)
+                    .is_none_or(|t| !matches!(t.kind, Kind::Word | Kind::Value))
+            // "nothing to distribute"
+            || starts_with(tokens, at, &["nothing", "to"])
+                && !tokens.get(at + 2).is_some_and(|t| t.is("do"))
             || starts_with(tokens, at, &["nothing", "but"])
             || token.is("nothing") && at > 0 && nearly(&tokens[at - 1].word)
             // "Isn't the answer that it gets darker?"

@@ -124,8 +124,26 @@ pub fn compares(tokens: &[Token], at: usize) -> bool {
             .is_some_and(|t| words.contains(&&*t.word))
     };
     match tokens[at].word.as_str() {
-        "than" | "compared" => true,
+        // "a broad sheen rather than a spot" compares nothing.
+        "than" => !at
+            .checked_sub(1)
+            .is_some_and(|i| matches!(tokens[i].word.as_str(), "rather" | "other")),
+        "compared" => true,
         "respect" | "relative" | "relatively" | "comparison" => next(&["to", "with"]),
+        _ => false,
+    }
+}
+
+/// Whether two things are spoken of together from here on: "both lobes are", "in either photo".
+pub fn means_both(tokens: &[Token], at: usize) -> bool {
+    let word = |i: usize| tokens.get(i).map_or("", |t| t.word.as_str());
+    match word(at) {
+        // "both small and bright"
+        "both" => !(at + 2..at + 5).any(|i| word(i) == "and"),
+        "either" => matches!(
+            word(at + 1),
+            "case" | "ball" | "photo" | "picture" | "image" | "surface" | "shot" | "photograph"
+        ),
         _ => false,
     }
 }
@@ -486,6 +504,16 @@ pub const WONDERS: &[&[&str]] = &[
     &["unsure", "if"],
     &["unsure", "whether"],
     &["know", "if"],
+    &["not", "remember", "what"],
+    &["not", "remember", "how"],
+    &["not", "remember", "which"],
+    &["not", "recall", "what"],
+    &["not", "recall", "how"],
+    &["not", "recall", "which"],
+    &["forgot", "what"],
+    &["forgot", "which"],
+    &["forgotten", "what"],
+    &["forgotten", "which"],
     &["know", "whether"],
     &["idea", "if"],
     &["idea", "whether"],

@@ -120,16 +120,16 @@ impl Atom {
         let opposite = senses(&self.anchor, &statement.concepts, ears, |id| {
             lexicon.concept(id).antonym
         });
-        let binary = statement
-            .concepts
-            .iter()
-            .any(|&id| lexicon.concept(id).binary);
+        let binary = senses(&self.anchor, &statement.concepts, ears, |id| {
+            let concept = lexicon.concept(id);
+            concept.antonym.filter(|_| concept.binary)
+        });
         let sure = if statement.compared { 0.8 } else { 1.0 };
         let denied = statement.denied != self.denied;
         match (denied, contrary) {
             (false, false) | (true, true) => says * sure,
             (true, false) if says > 0.0 => 0.0,
-            (true, false) => opposite * if binary { sure } else { 0.6 },
+            (true, false) => (binary * sure).max(opposite * 0.6),
             (false, true) if says > 0.0 => 0.0,
             (false, true) => opposite * sure,
         }
@@ -234,6 +234,16 @@ impl Atom {
                         && is(&about.concepts, "highlight") =>
                 {
                     0.5
+                }
+                // "The polished ball has a big one": of two surfaces, whichever place.
+                Some(about)
+                    if class == PLACE
+                        && is(wanted, "highlight")
+                        && !self.about[SURFACE].is_empty()
+                        && is(&about.concepts, "whole")
+                        && (!ears.strict || self.is_size(lexicon)) =>
+                {
+                    0.8
                 }
                 Some(about) if class == QUANTITY && about.held < Held::Local => 0.9,
                 Some(_) => 0.0,

@@ -140,6 +140,7 @@ pub fn read(lexicon: &Lexicon, tokens: Vec<Token>, setting: &Setting, mute: &[bo
     if question_known && setting.order[SURFACE].len() < 2 {
         matches.retain(|m| !tokens[m.start].word.starts_with("#rough"));
     }
+    matches.retain(|m| !is_verb(&tokens, m));
     let (clause, sentence) = clauses(lexicon, &tokens, &matches);
     let denied = denials(lexicon, &tokens, &matches, &clause, &sentence);
     suppose(lexicon, &tokens, &mut matches, &sentence, setting);
@@ -248,6 +249,22 @@ fn says(lexicon: &Lexicon, forms: &[Form], at: usize, without: Option<usize>) ->
                     .iter()
                     .any(|&id| lexicon.concept(id).role == Role::State)
             })
+}
+
+/// "They point everywhere" names no point.
+fn is_verb(tokens: &[Token], found: &Match) -> bool {
+    let noun = |word: &str| {
+        grammar::is_copula(word)
+            || matches!(word, "a" | "an" | "one" | "single" | "of" | "this" | "that" | "only")
+    };
+    found.end == found.start + 1
+        && tokens[found.start].is("point")
+        && !tokens[found.start.saturating_sub(3)..found.start]
+            .iter()
+            .any(|t| noun(&t.word))
+        && tokens
+            .get(found.end)
+            .is_some_and(|t| t.kind == Kind::Word)
 }
 
 /// Places, surfaces and facets named inside a longer expression: the mirror of "a perfect

@@ -194,6 +194,11 @@ pub fn resolve_ordinals(
             && grammar::is_copula(follows)
             && (at + 2..(at + 40).min(tokens.len()))
                 .any(|i| tokens[i].is("other") && tokens[i - 1].is("the"));
+        // "Peaked for the one and flat for the other."
+        let of_pair = before(1) == "the"
+            && matches!(before(2), "in" | "on" | "for" | "with" | "of")
+            && (at + 1..(at + 25).min(tokens.len()))
+                .any(|i| tokens[i].is("other") && tokens[i - 1].is("the"));
         let other_than = |last: Option<Id>| {
             let topic = last.or_else(|| order.first().copied());
             let mut all = setting.order[class].iter().copied();
@@ -247,6 +252,12 @@ pub fn resolve_ordinals(
             {
                 order.get(1).copied()
             }
+            // "the dull ball": where the question sets two apart, no judgement of its light.
+            "dull" if matches!(follows, "ball" | "one" | "sphere" | "surface" | "metal" | "steel") => {
+                let rough = lexicon.id("rough");
+                rough.filter(|id| setting.order[class].contains(id))
+            }
+            "one" if of_pair => order.first().copied(),
             "other" if any_other || from_one => None,
             "other" if in_the => other_than(last),
             "one" if case || opens_pair => order.first().copied(),
@@ -267,6 +278,9 @@ pub fn resolve_ordinals(
             last = Some(id);
             if numbered {
                 counted.insert(at + 1);
+            }
+            if word == "dull" {
+                counted.insert(at);
             }
             resolved.push(Match {
                 start: at,

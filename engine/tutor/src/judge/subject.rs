@@ -26,8 +26,91 @@ impl Reading {
         self.only_less();
         self.objects(lexicon);
         self.clamped(lexicon);
+        self.sizes();
+        self.sums(lexicon);
+        self.shines(lexicon);
         self.measures(lexicon);
         self.alignments(lexicon);
+    }
+
+    /// "A couple of pixels wide": how wide, not that it is.
+    fn sizes(&mut self) {
+        for statement in &mut self.statements {
+            let (start, end) = statement.tokens;
+            let dimension = end == start + 1
+                && matches!(
+                    self.tokens[start].word.as_str(),
+                    "wide" | "broad" | "large" | "big" | "high" | "tall" | "thick"
+                );
+            let unit = start.checked_sub(1).is_some_and(|i| {
+                matches!(
+                    self.tokens[i].word.as_str(),
+                    "pixel" | "pixels" | "degree" | "degrees" | "deg" | "mm" | "millimetres" | "cm"
+                )
+            });
+            statement.void |= dimension && unit;
+        }
+    }
+
+    /// "The integral of D is 1": the sum over all directions has that value, not D.
+    fn sums(&mut self, lexicon: &Lexicon) {
+        for index in 0..self.statements.len() {
+            let statement = &self.statements[index];
+            let one = |&id: &Id| lexicon.concept(id).name == "one";
+            if !statement.concepts.iter().any(one) {
+                continue;
+            }
+            let (at, clause) = (statement.tokens.0, statement.clause);
+            let of_sum = (at.saturating_sub(10)..at).any(|i| {
+                self.clause[i] == clause
+                    && matches!(
+                        self.tokens[i].word.as_str(),
+                        "integral"
+                            | "integrates"
+                            | "integrate"
+                            | "integrated"
+                            | "∫"
+                            | "normalisation"
+                            | "normalization"
+                            | "normalised"
+                            | "normalized"
+                            | "sums"
+                            | "sum"
+                            | "area"
+                    )
+            });
+            self.statements[index].void |= of_sum;
+        }
+    }
+
+    /// "The glare is broad and faint": the noun names the spot, the words behind say how it is.
+    fn shines(&mut self, lexicon: &Lexicon) {
+        for index in 0..self.statements.len() {
+            let (start, end) = self.statements[index].tokens;
+            let names_spot = end == start + 1
+                && matches!(
+                    self.tokens[start].word.as_str(),
+                    "glare" | "glow" | "gleam" | "shimmer" | "blaze" | "sparkle" | "flare"
+                );
+            let is = self.tokens.get(end).is_some_and(|t| {
+                matches!(t.word.as_str(), "is" | "are" | "looks" | "gets" | "becomes" | "stays")
+            });
+            let determined = (start.saturating_sub(3)..start).any(|i| {
+                matches!(self.tokens[i].word.as_str(), "the" | "its" | "this" | "that")
+                    && self.clause[i] == self.clause[start]
+            });
+            let described = || {
+                (index + 1..self.statements.len().min(index + 4))
+                    .take_while(|&i| self.statements[i].tokens.0 <= end + 4)
+                    .any(|i| {
+                        self.statements[i].clause == self.statements[index].clause
+                            && self.is_state(lexicon, i)
+                    })
+            };
+            if names_spot && is && determined && described() {
+                self.statements[index].void = true;
+            }
+        }
     }
 
     /// "5 pixels wide", "a degree across": so much, which may be little.
@@ -271,6 +354,7 @@ impl Reading {
                             | "coincide"
                             | "coincides"
                             | "lined"
+                            | "lines"
                             | "line"
                             | "direction"
                             | "way"
