@@ -253,15 +253,18 @@ fn says(lexicon: &Lexicon, forms: &[Form], at: usize, without: Option<usize>) ->
 
 /// "They point everywhere" names no point.
 fn is_verb(tokens: &[Token], found: &Match) -> bool {
-    let noun = |word: &str| {
-        grammar::is_copula(word)
-            || matches!(word, "a" | "an" | "one" | "single" | "of" | "this" | "that" | "only")
+    let subject = |word: &str| {
+        matches!(
+            word,
+            "they" | "all" | "that" | "which" | "will" | "can" | "to" | "should" | "would" | "each"
+        ) || word.len() > 4 && word.ends_with('s') && !word.ends_with("ss")
     };
     found.end == found.start + 1
         && tokens[found.start].is("point")
-        && !tokens[found.start.saturating_sub(3)..found.start]
-            .iter()
-            .any(|t| noun(&t.word))
+        && found
+            .start
+            .checked_sub(1)
+            .is_some_and(|i| subject(&tokens[i].word))
         && tokens
             .get(found.end)
             .is_some_and(|t| t.kind == Kind::Word)
