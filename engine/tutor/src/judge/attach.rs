@@ -135,14 +135,20 @@ impl Reading {
     fn compared(&self, list: &[Mention], next: usize, found: &Match) -> Option<Mention> {
         let than = (found.end..(found.end + 5).min(self.tokens.len()))
             .find(|&i| grammar::compares(&self.tokens, i))?;
-        list.get(next..)?
-            .iter()
-            .find(|m| {
-                m.start > than
-                    && m.start < than + 5
-                    && self.sentence[m.start] == self.sentence[found.start]
-            })
-            .copied()
+        let other = list.get(next..)?.iter().find(|m| {
+            m.start > than
+                && m.start < than + 5
+                && self.sentence[m.start] == self.sentence[found.start]
+        })?;
+        // "Duller than a metal ball should be": compared with what it ought to be.
+        let ought = (other.end..(other.end + 5).min(self.tokens.len())).any(|i| {
+            self.clause[i] == self.clause[other.start]
+                && matches!(
+                    self.tokens[i].word.as_str(),
+                    "should" | "ought" | "must" | "would" | "right" | "normally" | "usually"
+                )
+        });
+        (!ought).then_some(*other)
     }
 
     fn about(

@@ -177,13 +177,26 @@ impl Reading {
                     || starts_with(&self.tokens, at + 1, &["quite", "the", "opposite"])
                     || starts_with(&self.tokens, at + 1, &["that", "is", "a", "myth"]);
                 asked[self.sentence[at]] |= token.kind == Kind::Question && (asks || refused);
-                stated |= !first && token.kind != Kind::Question;
+                stated |= !first && (token.kind != Kind::Question || !asks && self.reasons(at));
                 first = true;
                 asks = false;
             }
         }
         stated |= !first;
         (asked, !stated)
+    }
+
+    /// "It goes white because you divide by almost nothing?", "it gets too dark then, I think?":
+    /// who gives a reason or his opinion does not only ask.
+    fn reasons(&self, end: usize) -> bool {
+        let word = |i: usize| self.tokens.get(i).map_or("", |t| t.word.as_str());
+        (end.saturating_sub(30)..end)
+            .rev()
+            .take_while(|&i| self.sentence[i] == self.sentence[end])
+            .any(|i| {
+                let thinks = word(i) == "i" && matches!(word(i + 1), "think" | "guess" | "believe");
+                thinks || matches!(word(i), "because" | "since" | "cause")
+            })
     }
 
     /// "Is it maybe that ...?", "Isn't it that ...?": says it, if shyly.

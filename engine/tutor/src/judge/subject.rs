@@ -28,6 +28,7 @@ impl Reading {
         self.clamped(lexicon);
         self.sizes();
         self.sums(lexicon);
+        self.seeming(lexicon);
         self.shines(lexicon);
         self.measures(lexicon);
         self.alignments(lexicon);
@@ -49,6 +50,34 @@ impl Reading {
                 )
             });
             statement.void |= dimension && unit;
+        }
+    }
+
+    /// "It looks like the textbook, but": a concession. "There is no pi in it": nothing is in it.
+    fn seeming(&mut self, lexicon: &Lexicon) {
+        let word = |i: usize| self.tokens.get(i).map_or("", |t| t.word.as_str());
+        for index in 0..self.statements.len() {
+            let statement = &self.statements[index];
+            let start = statement.tokens.0;
+            let meant = |s: &Statement, name: &str| {
+                s.concepts.iter().any(|&id| lexicon.concept(id).name == name)
+            };
+            let seems = (start.saturating_sub(4)..start)
+                .any(|i| matches!(word(i), "looks" | "look" | "seems" | "appears" | "sounds"));
+            let turns = || {
+                (start..(start + 30).min(self.tokens.len()))
+                    .take_while(|&i| self.sentence[i] == statement.sentence)
+                    .any(|i| matches!(word(i), "but" | "yet" | "however" | "except"))
+            };
+            let conceded = meant(statement, "correct") && seems && turns();
+            let none = index.checked_sub(1).is_some_and(|i| {
+                let before = &self.statements[i];
+                before.tokens.1 == start
+                    && meant(before, "missing")
+                    && meant(statement, "contains")
+                    && word(start) == "in"
+            });
+            self.statements[index].void |= conceded || none;
         }
     }
 
