@@ -416,7 +416,7 @@ impl Reading {
                 let compares = matches!(
                     self.tokens[i].word.as_str(),
                     "than" | "against" | "compared" | "unlike"
-                );
+                ) || grammar::compares(&self.tokens, i);
                 compares && self.clause[i] == self.clause[m.start]
             })
         };

@@ -8,7 +8,8 @@
 
 use std::collections::BTreeMap;
 
-use super::lexicon::{Id, Lexicon};
+use super::lexicon::{Id, Lexicon, QUANTITY};
+use super::matching::is_given;
 use super::parse::{Held, Reading, Statement};
 
 /// The weights that come with the program.
@@ -110,6 +111,23 @@ fn add(lexicon: &Lexicon, statement: &Statement, index: usize, out: &mut Vec<Fea
             }
         }
         let of = &of[..count];
+        // "N·V goes to zero at the rim": what is put in does, and nothing else there.
+        let given = statement.about[QUANTITY].as_ref().filter(|about| {
+            about.held == Held::Local
+                && about
+                    .concepts
+                    .iter()
+                    .all(|&id| is_given(&lexicon.concept(id).name))
+        });
+        let given: Option<Vec<u64>> = given.map(|about| {
+            let codes = about.concepts.iter();
+            codes.map(|&id| code(u64::from(id), PLAIN)).collect()
+        });
+        let counts = |one: u64, other: u64| {
+            given
+                .as_ref()
+                .is_none_or(|codes| codes.contains(&one) || codes.contains(&other))
+        };
         let family = family_of(&lexicon.concept(id).name).filter(|_| !statement.denied);
         let family = family.map(|it| code(it, FAMILY));
         let mut push = |key: Key, value: f64| {
@@ -121,11 +139,17 @@ fn add(lexicon: &Lexicon, statement: &Statement, index: usize, out: &mut Vec<Fea
         };
         for (said, sure) in [(Some(said), sure), (family, 1.0)] {
             let Some(said) = said else { continue };
-            push(said, sure);
+            if counts(0, 0) {
+                push(said, sure);
+            }
             for (i, &(one, held)) in of.iter().enumerate() {
-                push(key(said, one, 0), sure * held);
+                if counts(one, 0) {
+                    push(key(said, one, 0), sure * held);
+                }
                 for &(other, too) in &of[..i] {
-                    push(key(said, other, one), sure * held * too);
+                    if counts(one, other) {
+                        push(key(said, other, one), sure * held * too);
+                    }
                 }
             }
         }

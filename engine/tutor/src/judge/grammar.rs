@@ -129,6 +129,10 @@ pub fn compares(tokens: &[Token], at: usize) -> bool {
             .checked_sub(1)
             .is_some_and(|i| matches!(tokens[i].word.as_str(), "rather" | "other")),
         "compared" => true,
+        // "Five orders of magnitude above the other."
+        "above" | "over" => at
+            .checked_sub(1)
+            .is_some_and(|i| matches!(tokens[i].word.as_str(), "magnitude" | "stops")),
         "respect" | "relative" | "relatively" | "comparison" => next(&["to", "with"]),
         _ => false,
     }

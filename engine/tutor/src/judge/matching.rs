@@ -401,7 +401,7 @@ fn without_cause(statement: &Statement) -> [Option<About>; CLASSES] {
 }
 
 /// Quantities that are put in, not what comes out.
-fn is_given(name: &str) -> bool {
+pub fn is_given(name: &str) -> bool {
     matches!(
         name,
         "alpha" | "top" | "bottom" | "ndoth" | "ndotl" | "ndotv" | "vdoth" | "product"

@@ -265,9 +265,7 @@ fn is_verb(tokens: &[Token], found: &Match) -> bool {
             .start
             .checked_sub(1)
             .is_some_and(|i| subject(&tokens[i].word))
-        && tokens
-            .get(found.end)
-            .is_some_and(|t| t.kind == Kind::Word)
+        && tokens.get(found.end).is_some_and(|t| t.kind == Kind::Word)
 }
 
 /// Places, surfaces and facets named inside a longer expression: the mirror of "a perfect

@@ -253,7 +253,12 @@ pub fn resolve_ordinals(
                 order.get(1).copied()
             }
             // "the dull ball": where the question sets two apart, no judgement of its light.
-            "dull" if matches!(follows, "ball" | "one" | "sphere" | "surface" | "metal" | "steel") => {
+            "dull"
+                if matches!(
+                    follows,
+                    "ball" | "one" | "sphere" | "surface" | "metal" | "steel"
+                ) =>
+            {
                 let rough = lexicon.id("rough");
                 rough.filter(|id| setting.order[class].contains(id))
             }

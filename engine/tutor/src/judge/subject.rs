@@ -60,7 +60,9 @@ impl Reading {
             let statement = &self.statements[index];
             let start = statement.tokens.0;
             let meant = |s: &Statement, name: &str| {
-                s.concepts.iter().any(|&id| lexicon.concept(id).name == name)
+                s.concepts
+                    .iter()
+                    .any(|&id| lexicon.concept(id).name == name)
             };
             let seems = (start.saturating_sub(4)..start)
                 .any(|i| matches!(word(i), "looks" | "look" | "seems" | "appears" | "sounds"));
@@ -122,11 +124,16 @@ impl Reading {
                     "glare" | "glow" | "gleam" | "shimmer" | "blaze" | "sparkle" | "flare"
                 );
             let is = self.tokens.get(end).is_some_and(|t| {
-                matches!(t.word.as_str(), "is" | "are" | "looks" | "gets" | "becomes" | "stays")
+                matches!(
+                    t.word.as_str(),
+                    "is" | "are" | "looks" | "gets" | "becomes" | "stays"
+                )
             });
             let determined = (start.saturating_sub(3)..start).any(|i| {
-                matches!(self.tokens[i].word.as_str(), "the" | "its" | "this" | "that")
-                    && self.clause[i] == self.clause[start]
+                matches!(
+                    self.tokens[i].word.as_str(),
+                    "the" | "its" | "this" | "that"
+                ) && self.clause[i] == self.clause[start]
             });
             let described = || {
                 (index + 1..self.statements.len().min(index + 4))
