@@ -5,7 +5,7 @@
 //! | D, GGX | [`d_ggx`] | Walter et al. 2007, eq. 33 |
 //! | D, GGX stretched | [`d_ggx_aniso`] | Burley 2012, eq. 13 |
 //! | D, Beckmann | [`d_beckmann`] | Walter et al. 2007, eq. 25 |
-//! | D, Blinn-Phong | [`d_blinn_phong`] | Walter et al. 2007, eq. 30 |
+//! | D, Blinn-Phong | [`d_blinn_phong`] | Walter et al. 2007 |
 //!
 //! D(h) is the area of the facets that face h, over the area of the surface below them and over the
 //! solid angle: its unit is 1/sr, and it is no density of directions. What integrates to 1 is D times
@@ -90,7 +90,7 @@ const D_GGX: Term = entry!(
 /// D = 1 / (π α_x α_y ((h_x/α_x)² + (h_y/α_y)² + h_z²)²)
 /// ```
 ///
-/// - *Source*: Burley 2012, eq. 13; Heitz 2014, eq. 85.
+/// - *Source*: Burley 2012, eq. 13; Heitz 2018, eq. 1.
 /// - *Arguments*: `h_x`, `h_y`, `h_z` the half vector in the tangent frame, of length 1; `alpha_x`
 ///   the width along the tangent; `alpha_y` the width along the bitangent, both in (0, 1].
 /// - *Value*: 1/sr, up to 1/(π α_x α_y) at the normal. With α_x = α_y it is [`d_ggx`].
@@ -161,7 +161,7 @@ const D_GGX_ANISO: Term = entry!(
     d_ggx_aniso(h_x: H_X, h_y: H_Y, h_z: H_Z, alpha_x: ALPHA_X, alpha_y: ALPHA_Y),
     symbol: "D_GGX", latex: r"D_{\mathrm{GGX}}", cost: 14,
     doc: "anisotropic GGX distribution of microfacet normals, half vector in the tangent frame, in 1/sr",
-    source: "Burley 2012, eq. 13; Heitz 2014, eq. 85",
+    source: "Burley 2012, eq. 13; Heitz 2018, eq. 1",
     wgsl: Some("fn lobe_d_ggx_aniso(h_x: f32, h_y: f32, h_z: f32, alpha_x: f32, alpha_y: f32) -> f32 {
     if (h_z < 0.0) { return 0.0; }
     let x = h_x / alpha_x;
@@ -233,7 +233,7 @@ const D_BECKMANN: Term = entry!(
 /// D = (n + 2)/(2π) cosⁿθ = cosⁿθ / (π α²),    n = 2/α² − 2,    cos θ = N·H
 /// ```
 ///
-/// - *Source*: Blinn 1977; Walter et al. 2007, eq. 30.
+/// - *Source*: Blinn 1977; Walter et al. 2007.
 /// - *Arguments*: `n_dot_h` N·H in [0, 1]; `alpha` α = roughness² in [0, 1].
 /// - *Value*: 1/sr, 1/(π α²) at N·H = 1. ∫ D cos θ = 1. For small α it is [`d_beckmann`] with the
 ///   same α.
@@ -273,7 +273,7 @@ const D_BLINN_PHONG: Term = entry!(
     d_blinn_phong(n_dot_h: N_DOT_H, alpha: ALPHA),
     symbol: "D_Blinn", latex: r"D_{\mathrm{Blinn}}", cost: 60,
     doc: "normalised Blinn-Phong distribution with exponent 2/alpha² - 2, in 1/sr",
-    source: "Blinn 1977; Walter et al. 2007, eq. 30",
+    source: "Blinn 1977; Walter et al. 2007",
     // The exponent multiplies what the logarithm has lost, and near 1 a driver's has lost most
     // of it: ln m = −2 artanh((1 − m)/(1 + m)) by its series, m in [1/2, 1].
     wgsl: Some("fn lobe_d_blinn_phong(n_dot_h: f32, alpha: f32) -> f32 {

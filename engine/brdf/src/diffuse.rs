@@ -4,8 +4,8 @@
 //! |---|---|---|
 //! | [`diffuse_lambert`] | Lambert 1760 | keeps all of it |
 //! | [`diffuse_disney`] | Burley 2012, eq. 4 | gains some on rough surfaces |
-//! | [`diffuse_oren_nayar`] | Oren and Nayar 1994, eq. 30 | loses some |
-//! | [`diffuse_oren_nayar_full`] | Oren and Nayar 1994, eq. 26 to 29 | loses less; below 0 at a few grazing points |
+//! | [`diffuse_oren_nayar`] | Oren and Nayar 1994, the qualitative model | loses some |
+//! | [`diffuse_oren_nayar_full`] | Oren and Nayar 1994, the functional approximation | loses less; below 0 at a few grazing points |
 //! | [`diffuse_hammon`] | Hammon 2017 | a fit; gains up to 18 % seen from some directions |
 //! | [`diffuse_eon`] | Portsmouth, Kutz and Hill 2025 | keeps all of it, exactly |
 //!
@@ -128,7 +128,7 @@ fn ordered<R: Real>(l: R, v: R) -> (R, R) {
 /// A = 1 − 0.5 σ²/(σ² + 0.33),    B = 0.45 σ²/(σ² + 0.09)
 /// ```
 ///
-/// - *Source*: Oren and Nayar 1994, eq. 30.
+/// - *Source*: Oren and Nayar 1994, the qualitative model.
 /// - *Arguments*: `n_dot_l` N·L in [0, 1]; `n_dot_v` N·V in [0, 1]; `cos_phi` the cosine of the
 ///   azimuth between light and view in [−1, 1]; `sigma` σ in radians, 0 to about 1; `albedo` ρ in
 ///   [0, 1].
@@ -159,7 +159,7 @@ const DIFFUSE_OREN_NAYAR: Term = entry!(
     diffuse_oren_nayar(n_dot_l: N_DOT_L, n_dot_v: N_DOT_V, cos_phi: COS_PHI, sigma: SIGMA, albedo: ALBEDO),
     symbol: "f_ON", latex: r"f_{\mathrm{ON}}", cost: 28,
     doc: "Oren-Nayar diffuse reflection, qualitative model, in 1/sr",
-    source: "Oren and Nayar 1994, eq. 30",
+    source: "Oren and Nayar 1994, the qualitative model",
     wgsl: Some("fn lobe_diffuse_oren_nayar(n_dot_l: f32, n_dot_v: f32, cos_phi: f32, sigma: f32, albedo: f32) -> f32 {
     if (n_dot_l <= 0.0 || n_dot_v <= 0.0) { return 0.0; }
     let l = min(n_dot_l, 1.0);
@@ -203,7 +203,7 @@ macro_rules! wgsl_asin {
 /// C₃ = 0.125 σ²/(σ² + 0.09) (4αβ/π²)²
 /// ```
 ///
-/// - *Source*: Oren and Nayar 1994, eq. 26 to 29.
+/// - *Source*: Oren and Nayar 1994, the functional approximation.
 /// - *Arguments*: `n_dot_l` N·L in [0, 1]; `n_dot_v` N·V in [0, 1]; `cos_phi` the cosine of the
 ///   azimuth between light and view in [−1, 1]; `sigma` σ in radians, 0 to about 1; `albedo` ρ in
 ///   [0, 1].
@@ -255,7 +255,7 @@ const DIFFUSE_OREN_NAYAR_FULL: Term = entry!(
     diffuse_oren_nayar_full(n_dot_l: N_DOT_L, n_dot_v: N_DOT_V, cos_phi: COS_PHI, sigma: SIGMA, albedo: ALBEDO),
     symbol: "f_ON", latex: r"f_{\mathrm{ON}}", cost: 95,
     doc: "Oren-Nayar diffuse reflection, full model with interreflection, in 1/sr",
-    source: "Oren and Nayar 1994, eq. 26 to 29",
+    source: "Oren and Nayar 1994, the functional approximation",
     wgsl: Some(concat!(wgsl_asin!("lobe_diffuse_oren_nayar_full_asin"), "fn lobe_diffuse_oren_nayar_full(n_dot_l: f32, n_dot_v: f32, cos_phi: f32, sigma: f32, albedo: f32) -> f32 {
     if (n_dot_l <= 0.0 || n_dot_v <= 0.0) { return 0.0; }
     let low = min(min(n_dot_l, n_dot_v), 1.0);
@@ -365,7 +365,7 @@ fn fon_loss<R: Real>(mu: R) -> R {
 /// A = 1/(1 + (1/2 − 2/(3π)) r),    ρ_ms = ρ² E_avg/(1 − ρ (1 − E_avg))
 /// ```
 ///
-/// - *Source*: Portsmouth, Kutz and Hill 2025 (JCGT 14-1), eq. 18 to 28: Fujii's Oren-Nayar plus
+/// - *Source*: Portsmouth, Kutz and Hill 2025 (JCGT 14-1): Fujii's Oren-Nayar plus
 ///   what it loses.
 /// - *Arguments*: `n_dot_l`, `n_dot_v` and `l_dot_v` the three cosines; `roughness` r the model's
 ///   own, 0 (Lambert) to 1; `albedo` ρ in [0, 1].

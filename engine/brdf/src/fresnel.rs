@@ -2,11 +2,11 @@
 //!
 //! | symbol | function | source |
 //! |---|---|---|
-//! | F, Schlick | [`f_schlick`], [`f_schlick_ior`] | Schlick 1994, eq. 15 |
+//! | F, Schlick | [`f_schlick`], [`f_schlick_ior`] | Schlick 1994 |
 //! | F, spherical Gaussian | [`f_spherical_gaussian`] | Karis 2013 |
-//! | F, Lazányi | [`f_lazanyi`] | Lazányi and Szirmay-Kalos 2005, eq. 5 |
-//! | F, dielectric | [`f_dielectric`]; 1 − F: [`t_dielectric`] | Cook and Torrance 1982, eq. 15 |
-//! | F, conductor | [`f_conductor`], [`conductor_rgb`]; 1 − F: [`t_conductor`] | Born and Wolf, section 14.2 |
+//! | F, Lazányi | [`f_lazanyi`] | Lazányi and Szirmay-Kalos 2005 |
+//! | F, dielectric | [`f_dielectric`]; 1 − F: [`t_dielectric`] | Cook and Torrance 1982 |
+//! | F, conductor | [`f_conductor`], [`conductor_rgb`]; 1 − F: [`t_conductor`] | Born and Wolf, optics of metals |
 //! | f0 | [`f0_from_ior`], [`f0_from_metallic`] | Burley 2012 |
 //! | F_avg | [`f_schlick_average`] | closed form |
 //!
@@ -36,7 +36,7 @@ pub(crate) const TERMS: &[Term] = &[
 /// F = f0 + (1 − f0)(1 − V·H)⁵
 /// ```
 ///
-/// - *Source*: Schlick 1994, eq. 15.
+/// - *Source*: Schlick 1994.
 /// - *Arguments*: `f0` the reflectance at normal incidence in [0, 1]; `v_dot_h` V·H = L·H in [0,
 ///   1].
 /// - *Value*: f0 at normal incidence to 1 at grazing; for f0 in [0, 1] a share.
@@ -63,7 +63,7 @@ const F_SCHLICK: Term = entry!(
     f_schlick(f0: F0, v_dot_h: V_DOT_H),
     symbol: "F_Schlick", latex: r"F_{\mathrm{Schlick}}", cost: 8,
     doc: "Schlick's approximation of Fresnel reflectance, f0 to 1",
-    source: "Schlick 1994, eq. 15",
+    source: "Schlick 1994",
     wgsl: Some("fn lobe_f_schlick(f0: f32, v_dot_h: f32) -> f32 {
     let m = 1.0 - clamp(v_dot_h, 0.0, 1.0);
     let m2 = m * m;
@@ -116,7 +116,7 @@ const F_SPHERICAL_GAUSSIAN: Term = entry!(
 /// F = f0 + (1 − f0)(1 − V·H)⁵,    f0 = ((n − 1)/(n + 1))²
 /// ```
 ///
-/// - *Source*: Schlick 1994, eq. 15.
+/// - *Source*: Schlick 1994.
 /// - *Arguments*: `ior` n = n_t/n_i > 0; `v_dot_h` V·H = L·H in [0, 1].
 /// - *Value*: f0 to 1.
 /// - *Outside*: cosines are brought into [0, 1]; the sign of the index is ignored.
@@ -154,7 +154,7 @@ const F_SCHLICK_IOR: Term = entry!(
     f_schlick_ior(ior: IOR, v_dot_h: V_DOT_H),
     symbol: "F_Schlick", latex: r"F_{\mathrm{Schlick}}", cost: 12,
     doc: "Schlick's approximation of Fresnel reflectance for an index of refraction",
-    source: "Schlick 1994, eq. 15",
+    source: "Schlick 1994",
     wgsl: Some("fn lobe_f_schlick_ior(ior: f32, v_dot_h: f32) -> f32 {
     let r = (ior - 1.0) / (ior + 1.0);
     return lobe_f_schlick(r * r, v_dot_h);
@@ -180,7 +180,7 @@ fn squares_above_one<R: Real>(a: (R, R), c: R) -> (R, R) {
 /// F = 1 where g² < 0: total internal reflection
 /// ```
 ///
-/// - *Source*: Fresnel's equations; in this form Cook and Torrance 1982, eq. 15.
+/// - *Source*: Fresnel's equations; in this form Cook and Torrance 1982.
 /// - *Arguments*: `eta` η = n_t/n_i > 0; `v_dot_h` V·H = L·H in [0, 1].
 /// - *Value*: ((η − 1)/(η + 1))² at normal incidence to 1 at grazing.
 /// - *Outside*: cosines are brought into [0, 1]; the sign of η is ignored; η = 1 gives 0: there is
@@ -216,7 +216,7 @@ pub fn f_dielectric<R: Real>(eta: R, v_dot_h: R) -> R {
 /// 1 − F = 2 c g (1/(c + g)² + η²/(η² c + g)²),    c = V·H, g² = η² − 1 + c²
 /// ```
 ///
-/// - *Source*: Fresnel's equations; Cook and Torrance 1982, eq. 15.
+/// - *Source*: Fresnel's equations; Cook and Torrance 1982.
 /// - *Arguments*: `eta` η = n_t/n_i > 0; `v_dot_h` V·H = L·H in [0, 1].
 /// - *Value*: 0 under total internal reflection and at grazing, to 1.
 /// - *Outside*: cosines are brought into [0, 1]; the sign of η is ignored; η = 1 gives 1.
@@ -307,7 +307,7 @@ const F_DIELECTRIC: Term = entry!(
     f_dielectric(eta: ETA, v_dot_h: V_DOT_H),
     symbol: "F_dielectric", latex: r"F_{\mathrm{dielectric}}", cost: 40,
     doc: "exact Fresnel reflectance of a dielectric, unpolarised, 0 to 1",
-    source: "Fresnel's equations; Cook and Torrance 1982, eq. 15",
+    source: "Fresnel's equations; Cook and Torrance 1982",
     wgsl: Some("fn lobe_f_dielectric(eta: f32, v_dot_h: f32) -> f32 {
     let c = clamp(v_dot_h, 0.0, 1.0);
     let g2 = (eta - 1.0) * (eta + 1.0) + c * c;
@@ -328,7 +328,7 @@ const T_DIELECTRIC: Term = entry!(
     t_dielectric(eta: ETA, v_dot_h: V_DOT_H),
     symbol: "T_dielectric", latex: r"T_{\mathrm{dielectric}}", cost: 40,
     doc: "exact Fresnel transmittance of a dielectric, unpolarised, 0 to 1",
-    source: "Fresnel's equations; Cook and Torrance 1982, eq. 15",
+    source: "Fresnel's equations; Cook and Torrance 1982",
     wgsl: Some("fn lobe_t_dielectric(eta: f32, v_dot_h: f32) -> f32 {
     let c = clamp(v_dot_h, 0.0, 1.0);
     let g2 = (eta - 1.0) * (eta + 1.0) + c * c;
@@ -350,7 +350,7 @@ const T_DIELECTRIC: Term = entry!(
 /// with a² − b² = n² − k² − s², a b = n k, c = V·H, s² = 1 − c²
 /// ```
 ///
-/// - *Source*: Born and Wolf, section 14.2; Lagarde 2013.
+/// - *Source*: Born and Wolf, optics of metals; Lagarde 2013.
 /// - *Arguments*: `n` the real part of the index, ≥ 0; `k` its imaginary part, ≥ 0; `v_dot_h` V·H
 ///   = L·H in [0, 1].
 /// - *Value*: ((n − 1)² + k²)/((n + 1)² + k²) at normal incidence to 1 at grazing. `k = 0` is the
@@ -384,7 +384,7 @@ pub fn f_conductor<R: Real>(n: R, k: R, v_dot_h: R) -> R {
 /// 1 − R_p = (1 − R_s) + R_s · 4 a c s²/((a c + s²)² + b² c²)
 /// ```
 ///
-/// - *Source*: Born and Wolf, section 14.2; Lagarde 2013.
+/// - *Source*: Born and Wolf, optics of metals; Lagarde 2013.
 /// - *Arguments*: `n` the real part of the index, ≥ 0; `k` its imaginary part, ≥ 0; `v_dot_h` V·H
 ///   = L·H in [0, 1].
 /// - *Value*: 0 at grazing to 1.
@@ -537,7 +537,7 @@ const F_CONDUCTOR: Term = entry!(
     f_conductor(n: N, k: K, v_dot_h: V_DOT_H),
     symbol: "F_conductor", latex: r"F_{\mathrm{conductor}}", cost: 90,
     doc: "exact Fresnel reflectance of a conductor with index n + ik, unpolarised, 0 to 1",
-    source: "Born and Wolf, section 14.2; Lagarde 2013",
+    source: "Born and Wolf, optics of metals; Lagarde 2013",
     wgsl: Some("fn lobe_f_conductor(n: f32, k: f32, v_dot_h: f32) -> f32 {
     let c = clamp(v_dot_h, 0.0, 1.0);
     let s2 = (1.0 - c) * (1.0 + c);
@@ -560,7 +560,7 @@ const T_CONDUCTOR: Term = entry!(
     t_conductor(n: N, k: K, v_dot_h: V_DOT_H),
     symbol: "T_conductor", latex: r"T_{\mathrm{conductor}}", cost: 90,
     doc: "share of the light that a conductor with index n + ik absorbs, unpolarised, 0 to 1",
-    source: "Born and Wolf, section 14.2; Lagarde 2013",
+    source: "Born and Wolf, optics of metals; Lagarde 2013",
     wgsl: Some("fn lobe_t_conductor(n: f32, k: f32, v_dot_h: f32) -> f32 {
     let c = clamp(v_dot_h, 0.0, 1.0);
     let s2 = (1.0 - c) * (1.0 + c);
@@ -587,7 +587,7 @@ const T_CONDUCTOR: Term = entry!(
 /// F = f0 + (1 − f0)(1 − V·H)⁵ − a V·H (1 − V·H)⁶
 /// ```
 ///
-/// - *Source*: Lazányi and Szirmay-Kalos 2005, eq. 5.
+/// - *Source*: Lazányi and Szirmay-Kalos 2005.
 /// - *Arguments*: `f0` the reflectance at normal incidence in [0, 1]; `a` the depth of the dip,
 ///   fitted for each metal; `v_dot_h` V·H = L·H in [0, 1].
 /// - *Value*: f0 to 1, with the dip that metals of a large extinction show before grazing.
@@ -614,7 +614,7 @@ const F_LAZANYI: Term = entry!(
     f_lazanyi(f0: F0, a: A, v_dot_h: V_DOT_H),
     symbol: "F_Lazányi", latex: r"F_{\mathrm{Lazanyi}}", cost: 11,
     doc: "Schlick's approximation with Lazányi's correction for metals",
-    source: "Lazányi and Szirmay-Kalos 2005, eq. 5",
+    source: "Lazányi and Szirmay-Kalos 2005",
     wgsl: Some("fn lobe_f_lazanyi(f0: f32, a: f32, v_dot_h: f32) -> f32 {
     let u = clamp(v_dot_h, 0.0, 1.0);
     let m = 1.0 - u;

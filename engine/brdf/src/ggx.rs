@@ -3,7 +3,7 @@
 //! | symbol | item | source |
 //! |---|---|---|
 //! | D | [`Ggx::d`], [`Ggx::d_between`] | Walter et al. 2007, eq. 33; Burley 2012, eq. 13 |
-//! | Λ, G₁ | [`Ggx::lambda`], [`Ggx::g1`] | Heitz 2014, eq. 72, 43 |
+//! | Λ, G₁ | [`Ggx::lambda`], [`Ggx::g1`] | Heitz 2014, eq. 86, 43 |
 //! | V | [`Ggx::visibility`] | Heitz 2014, eq. 99 |
 //! | D V | [`Ggx::eval`] | Walter et al. 2007, eq. 20 |
 //! | V·H, 1 − V·H | [`v_dot_h_and_rest`] | Hammon 2017 |
@@ -193,7 +193,7 @@ impl<R: Real> Ggx<R> {
     /// Λ = (−1 + sqrt(1 + (α_x² x² + α_y² y²)/z²)) / 2
     /// ```
     ///
-    /// - *Source*: Heitz 2014, eq. 72 with 80.
+    /// - *Source*: Heitz 2014, eq. 86.
     /// - *Arguments*: `v` a direction of length 1.
     /// - *Value*: 0 to +∞.
     /// - *Outside*: +∞ at and below the horizon.
@@ -222,7 +222,7 @@ impl<R: Real> Ggx<R> {
     /// G₁ = 2 z / (z + sqrt(z² + α_x² x² + α_y² y²))
     /// ```
     ///
-    /// - *Source*: Heitz 2014, eq. 43 with 72 and 80.
+    /// - *Source*: Heitz 2014, eq. 43 with 86.
     /// - *Arguments*: `v` a direction of length 1.
     /// - *Value*: 0 to 1.
     /// - *Outside*: 0 at and below the horizon.

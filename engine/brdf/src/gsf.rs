@@ -89,7 +89,7 @@ const GSF_IMPLICIT: Term = entry!(
 /// G = N·L N·V / (V·H max(N·L, N·V))
 /// ```
 ///
-/// - *Source*: Stevens, part 3; Ashikhmin and Shirley 2000, eq. 4.
+/// - *Source*: Stevens, part 3; Ashikhmin and Shirley 2000.
 /// - *Arguments*: `n_dot_l` N·L in [0, 1]; `n_dot_v` N·V in [0, 1]; `v_dot_h` V·H = L·H in [0, 1].
 /// - *Outside*: at or below the horizon 0; `v_dot_h` = 0 gives +∞; other arguments are brought
 ///   into their range.
@@ -107,7 +107,7 @@ const GSF_ASHIKHMIN_SHIRLEY: Term = entry!(
     gsf_ashikhmin_shirley(n_dot_l: N_DOT_L, n_dot_v: N_DOT_V, v_dot_h: V_DOT_H),
     symbol: "G_AS", latex: r"G_{\mathrm{AS}}", cost: 4,
     doc: "Ashikhmin-Shirley geometric shadowing: right with the paper's own density of normals",
-    source: "Stevens, part 3; Ashikhmin and Shirley 2000, eq. 4",
+    source: "Stevens, part 3; Ashikhmin and Shirley 2000",
     wgsl: Some("fn lobe_gsf_ashikhmin_shirley(n_dot_l: f32, n_dot_v: f32, v_dot_h: f32) -> f32 {
     if (n_dot_l <= 0.0 || n_dot_v <= 0.0) { return 0.0; }
     return n_dot_l * n_dot_v / (v_dot_h * max(n_dot_l, n_dot_v));

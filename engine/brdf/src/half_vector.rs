@@ -5,7 +5,7 @@
 //! | N·H | [`n_dot_h_from`] | Hammon 2017 |
 //! | V·H | [`v_dot_h_from`] | Hammon 2017 |
 //! | θ_h, θ_d, φ_d | [`Rusinkiewicz`] | Rusinkiewicz 1998 |
-//! | α′ | [`alpha_filtered`] | Tokuyoshi and Kaplanyan 2019, eq. 5 and 7 |
+//! | α′ | [`alpha_filtered`] | Tokuyoshi and Kaplanyan 2019, eq. 5 |
 //!
 //! The identities are exact in algebra, need the cosine of *light and view* under the root (not N·L, a
 //! mistake in circulation), and are hazardous near the highlight: see [`n_dot_h_from`].
@@ -92,7 +92,7 @@ const V_DOT_H_FROM: Term = entry!(
 /// α′² = min(1, α² + min(2 σ², 0.18))
 /// ```
 ///
-/// - *Source*: Tokuyoshi and Kaplanyan 2019, eq. 5 and 7; Real-Time Rendering, 4th edition, eq.
+/// - *Source*: Tokuyoshi and Kaplanyan 2019, eq. 5; Real-Time Rendering, 4th edition, eq.
 ///   9.76.
 /// - *Arguments*: `alpha` α = roughness² in [0, 1]; `variance` σ² of the slopes within a pixel, ≥
 ///   0.
@@ -121,7 +121,7 @@ const ALPHA_FILTERED: Term = entry!(
     alpha_filtered(alpha: ALPHA, variance: VARIANCE),
     symbol: "α′", latex: r"\alpha'", cost: 9,
     doc: "alpha widened by the variance of the normal within a pixel (specular anti-aliasing)",
-    source: "Tokuyoshi and Kaplanyan 2019, eq. 5 and 7; Real-Time Rendering 4, eq. 9.76",
+    source: "Tokuyoshi and Kaplanyan 2019, eq. 5; Real-Time Rendering 4, eq. 9.76",
     wgsl: Some("fn lobe_alpha_filtered(alpha: f32, variance: f32) -> f32 {
     return sqrt(min(alpha * alpha + min(2.0 * max(variance, 0.0), 0.18), 1.0));
 }")

@@ -103,7 +103,7 @@ const INTEGRAL_D_COS_GGX: Term = entry!(
 /// ∫ D G₁(v) max(v·m, 0) dm / N·V = 1
 /// ```
 ///
-/// - *Source*: Heitz 2014, eq. 11 and 17.
+/// - *Source*: Heitz 2014, the weak white furnace test.
 /// - *Arguments*: `n_dot_v` N·V in [0, 1]; `alpha` α = roughness² in [0, 1].
 /// - *Value*: 1 for every view, within 1e-7: in any direction the visible facets cover exactly the
 ///   surface. This is what fixes G₁ once D is chosen, and what a wrong pairing of the two breaks.
@@ -152,7 +152,7 @@ const INTEGRAL_G1_D_GGX: Term = entry!(
     integral_g1_d_ggx(n_dot_v: N_DOT_V, alpha: ALPHA),
     symbol: "∫D G₁ v·m", latex: r"\int D G_1 (v \cdot m)", cost: 1_000_000,
     doc: "visible facet area over the surface's own, by quadrature of D and G1 of GGX: 1 for every view",
-    source: "Heitz 2014, eq. 11 and 17",
+    source: "Heitz 2014, the weak white furnace test",
     wgsl: None
 );
 

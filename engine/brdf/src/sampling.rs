@@ -26,7 +26,7 @@ use std::f64::consts::{FRAC_1_PI, PI};
 pub enum Sampler {
     /// Visible normals from a projected hemisphere (Heitz 2018, JCGT 7-4).
     Hemisphere,
-    /// The same normals from a spherical cap (Dupuy and Benyoub 2023, CGF 42-8, algorithm 1).
+    /// The same normals from a spherical cap (Dupuy and Benyoub 2023, CGF 42-8).
     SphericalCap,
     /// A cap without directions that must end below the horizon (Eto and Tokuyoshi 2023,
     /// SIGGRAPH Asia technical communications). The best of them, but for α near 1.
@@ -117,7 +117,7 @@ impl<R: Real> Ggx<R> {
 
     /// Draws a light for a view from two numbers.
     ///
-    /// - *Source*: Heitz 2018, listing 1; Dupuy and Benyoub 2023, algorithm 1; Eto and Tokuyoshi 2023.
+    /// - *Source*: Heitz 2018, listing 1; Dupuy and Benyoub 2023; Eto and Tokuyoshi 2023.
     /// - *Arguments*: `v` the view, of length 1; `u` two numbers in [0, 1), brought into [0, 1];
     ///   `sampler` how.
     /// - *Value*: the direction, its weight BRDF · N·L / density (F = 1) and its density in 1/sr, both

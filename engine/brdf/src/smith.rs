@@ -2,13 +2,13 @@
 //!
 //! | symbol | function | source |
 //! |---|---|---|
-//! | Λ | [`lambda_ggx`], [`lambda_beckmann`] | Heitz 2014, eq. 72, 66 |
+//! | Λ | [`lambda_ggx`], [`lambda_beckmann`] | Heitz 2014, eq. 72; section 5 |
 //! | G₁ | [`g1_ggx`], [`g1_beckmann`], [`g1_beckmann_rational`] | Heitz 2014, eq. 43; Walter et al. 2007, eq. 34, 26, 27 |
 //! | 1 − G₁ | [`one_minus_g1_ggx`], [`one_minus_g1_beckmann`] | Heitz 2014, eq. 43 |
 //! | G₂ | [`g2_ggx`], [`g2_beckmann`] | Heitz 2014, eq. 99 |
 //! | G₂, separable | [`g2_ggx_separable`] | Heitz 2014, eq. 98 |
 //! | G₂, approximated | [`g2_ggx_hammon`] | Hammon 2017 |
-//! | V = G₂/(4 N·L N·V) | [`v_ggx`], [`v_ggx_separable`], [`v_ggx_hammon`] | Lagarde and de Rousiers 2014, listing 2 |
+//! | V = G₂/(4 N·L N·V) | [`v_ggx`], [`v_ggx_separable`], [`v_ggx_hammon`] | Lagarde and de Rousiers 2014 |
 //!
 //! Smith's surface is a height field whose slopes do not depend on one another. All of it follows from
 //! one function of the distribution, Λ (Heitz 2014, section 5):
@@ -190,7 +190,7 @@ fn cot_over_alpha<R: Real>(c: R, alpha: R) -> (R, R) {
 /// Λ = (erf(a) − 1)/2 + exp(−a²) / (2 a sqrt(π)),    a = 1/(α tan θ),    cos θ = N·X
 /// ```
 ///
-/// - *Source*: Heitz 2014, eq. 66 with 61.
+/// - *Source*: Heitz 2014, section 5.
 /// - *Arguments*: `n_dot_x` the cosine N·X of the direction in [0, 1]; `alpha` α = roughness² in
 ///   [0, 1].
 /// - *Value*: 0 to +∞; less than 1e-7 for a > 3.5.
@@ -225,7 +225,7 @@ const LAMBDA_BECKMANN: Term = entry!(
     lambda_beckmann(n_dot_x: N_DOT_X, alpha: ALPHA),
     symbol: "Λ_Beckmann", latex: r"\Lambda_{\mathrm{Beckmann}}", cost: 60,
     doc: "Smith's Lambda of the Beckmann distribution, 0 to infinity",
-    source: "Heitz 2014, eq. 66 and 61",
+    source: "Heitz 2014, section 5",
     wgsl: Some("fn lobe_lambda_beckmann(n_dot_x: f32, alpha: f32) -> f32 {
     if (n_dot_x <= 0.0) { return 3.0e38; }
     let c = min(n_dot_x, 1.0);
@@ -291,7 +291,7 @@ const G1_GGX: Term = entry!(
 /// G₁ = 1/(1 + Λ) = 2 / (1 + erf(a) + exp(−a²)/(a sqrt(π))),    a = 1/(α tan θ)
 /// ```
 ///
-/// - *Source*: Walter et al. 2007, eq. 26; Heitz 2014, eq. 43 with 66.
+/// - *Source*: Walter et al. 2007, eq. 26; Heitz 2014, eq. 43.
 /// - *Arguments*: `n_dot_x` the cosine N·X of the direction in [0, 1]; `alpha` α = roughness² in
 ///   [0, 1].
 /// - *Value*: 0 at grazing to 1 at normal incidence.
@@ -306,7 +306,7 @@ const G1_BECKMANN: Term = entry!(
     g1_beckmann(n_dot_x: N_DOT_X, alpha: ALPHA),
     symbol: "G₁", latex: r"G_1", cost: 62,
     doc: "Smith's masking of the Beckmann distribution, 0 to 1",
-    source: "Heitz 2014, eq. 43 and 66; Walter et al. 2007, eq. 26",
+    source: "Walter et al. 2007, eq. 26; Heitz 2014, eq. 43",
     wgsl: Some("fn lobe_g1_beckmann(n_dot_x: f32, alpha: f32) -> f32 {
     return 1.0 / (1.0 + lobe_lambda_beckmann(n_dot_x, alpha));
 }"),
@@ -403,7 +403,7 @@ const ONE_MINUS_G1_GGX: Term = entry!(
 /// 1 − G₁ = Λ / (1 + Λ)
 /// ```
 ///
-/// - *Source*: Heitz 2014, eq. 43 with 66.
+/// - *Source*: Heitz 2014, eq. 43.
 /// - *Arguments*: `n_dot_x` the cosine N·X of the direction in [0, 1]; `alpha` α = roughness² in
 ///   [0, 1].
 /// - *Value*: 0 at normal incidence to 1 at grazing.
@@ -421,7 +421,7 @@ const ONE_MINUS_G1_BECKMANN: Term = entry!(
     one_minus_g1_beckmann(n_dot_x: N_DOT_X, alpha: ALPHA),
     symbol: "1 − G₁", latex: r"1 - G_1", cost: 62,
     doc: "share of the facets of Beckmann's surface turned to a direction that is hidden from it, 0 to 1",
-    source: "Heitz 2014, eq. 43 and 66",
+    source: "Heitz 2014, eq. 43",
     wgsl: Some("fn lobe_one_minus_g1_beckmann(n_dot_x: f32, alpha: f32) -> f32 {
     let lambda = min(lobe_lambda_beckmann(n_dot_x, alpha), 1.0e15);
     return lambda / (1.0 + lambda);
@@ -475,7 +475,7 @@ const G2_GGX: Term = entry!(
 /// G₂ = G₁(l) G₁(v)
 /// ```
 ///
-/// - *Source*: Walter et al. 2007, eq. 23; Heitz 2014, eq. 98.
+/// - *Source*: Heitz 2014, eq. 98; Walter et al. 2007.
 /// - *Arguments*: `n_dot_l` N·L in [0, 1]; `n_dot_v` N·V in [0, 1]; `alpha` α = roughness² in [0,
 ///   1].
 /// - *Value*: 0 to 1, never above [`g2_ggx`]; their ratio is 1 − (1 − G₁(l))(1 − G₁(v)).
@@ -495,7 +495,7 @@ const G2_GGX_SEPARABLE: Term = entry!(
     g2_ggx_separable(n_dot_l: N_DOT_L, n_dot_v: N_DOT_V, alpha: ALPHA),
     symbol: "G₂", latex: r"G_2", cost: 25,
     doc: "Smith's separable masking-shadowing of GGX, G1 times G1, 0 to 1",
-    source: "Walter et al. 2007, eq. 23; Heitz 2014, eq. 98",
+    source: "Heitz 2014, eq. 98; Walter et al. 2007",
     wgsl: Some("fn lobe_g2_ggx_separable(n_dot_l: f32, n_dot_v: f32, alpha: f32) -> f32 {
     return lobe_g1_ggx(n_dot_l, alpha) * lobe_g1_ggx(n_dot_v, alpha);
 }"),
@@ -548,7 +548,7 @@ const G2_GGX_HAMMON: Term = entry!(
 /// G₂ = 1 / (1 + Λ(l) + Λ(v))
 /// ```
 ///
-/// - *Source*: Heitz 2014, eq. 99 with 66.
+/// - *Source*: Heitz 2014, eq. 99.
 /// - *Arguments*: `n_dot_l` N·L in [0, 1]; `n_dot_v` N·V in [0, 1]; `alpha` α = roughness² in [0,
 ///   1].
 /// - *Value*: 0 to 1. Reciprocal.
@@ -564,7 +564,7 @@ const G2_BECKMANN: Term = entry!(
     g2_beckmann(n_dot_l: N_DOT_L, n_dot_v: N_DOT_V, alpha: ALPHA),
     symbol: "G₂", latex: r"G_2", cost: 122,
     doc: "Smith's height-correlated masking-shadowing of the Beckmann distribution, 0 to 1",
-    source: "Heitz 2014, eq. 99 and 66",
+    source: "Heitz 2014, eq. 99",
     wgsl: Some("fn lobe_g2_beckmann(n_dot_l: f32, n_dot_v: f32, alpha: f32) -> f32 {
     return 1.0 / (1.0 + lobe_lambda_beckmann(n_dot_l, alpha) + lobe_lambda_beckmann(n_dot_v, alpha));
 }"),
@@ -578,7 +578,7 @@ const G2_BECKMANN: Term = entry!(
 ///   = 0.5 / (N·L sqrt(α² + (1 − α²)(N·V)²) + N·V sqrt(α² + (1 − α²)(N·L)²))
 /// ```
 ///
-/// - *Source*: Heitz 2014, eq. 99; in this form Lagarde and de Rousiers 2014, listing 2.
+/// - *Source*: Heitz 2014, eq. 99; in this form Lagarde and de Rousiers 2014.
 /// - *Arguments*: `n_dot_l` N·L in [0, 1]; `n_dot_v` N·V in [0, 1]; `alpha` α = roughness² in [0,
 ///   1].
 /// - *Value*: 1/4 at normal incidence; 1/(2 α N·L) where N·V = 0; +∞ where both are 0. Reciprocal.
@@ -613,7 +613,7 @@ const V_GGX: Term = entry!(
     v_ggx(n_dot_l: N_DOT_L, n_dot_v: N_DOT_V, alpha: ALPHA),
     symbol: "V_GGX", latex: r"V_{\mathrm{GGX}}", cost: 24,
     doc: "visibility of GGX: height-correlated G2 over 4 N·L N·V, 0 to infinity",
-    source: "Heitz 2014, eq. 99; Lagarde and de Rousiers 2014, listing 2",
+    source: "Heitz 2014, eq. 99; Lagarde and de Rousiers 2014",
     wgsl: Some("fn lobe_v_ggx(n_dot_l: f32, n_dot_v: f32, alpha: f32) -> f32 {
     if (n_dot_l < 0.0 || n_dot_v < 0.0) { return 0.0; }
     let l = min(n_dot_l, 1.0);
@@ -629,7 +629,7 @@ const V_GGX: Term = entry!(
 /// V = G₁(l) G₁(v) / (4 N·L N·V) = 1 / ((N·L + sqrt(…)) (N·V + sqrt(…)))
 /// ```
 ///
-/// - *Source*: Walter et al. 2007, eq. 23 and 34.
+/// - *Source*: Walter et al. 2007, eq. 34.
 /// - *Arguments*: `n_dot_l` N·L in [0, 1]; `n_dot_v` N·V in [0, 1]; `alpha` α = roughness² in [0,
 ///   1].
 /// - *Value*: 0 to +∞, never above [`v_ggx`]. Reciprocal.
@@ -651,7 +651,7 @@ const V_GGX_SEPARABLE: Term = entry!(
     v_ggx_separable(n_dot_l: N_DOT_L, n_dot_v: N_DOT_V, alpha: ALPHA),
     symbol: "V_GGX", latex: r"V_{\mathrm{GGX}}", cost: 24,
     doc: "separable visibility of GGX: G1 times G1 over 4 N·L N·V, 0 to infinity",
-    source: "Walter et al. 2007, eq. 23 and 34",
+    source: "Walter et al. 2007, eq. 34",
     wgsl: Some("fn lobe_v_ggx_separable(n_dot_l: f32, n_dot_v: f32, alpha: f32) -> f32 {
     if (n_dot_l < 0.0 || n_dot_v < 0.0) { return 0.0; }
     let l = min(n_dot_l, 1.0);

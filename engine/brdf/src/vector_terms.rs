@@ -102,7 +102,7 @@ const VECTOR_F_SCHLICK: Term = entry!(
     vector_f_schlick(l_x: L_X, l_y: L_Y, l_z: L_Z, v_x: V_X, v_y: V_Y, v_z: V_Z, f0: F0),
     symbol: "F", latex: "F", cost: 25,
     doc: "Schlick's reflectance from light and view",
-    source: "Schlick 1994, eq. 15",
+    source: "Schlick 1994",
     wgsl: None
 );
 
@@ -157,7 +157,7 @@ const VECTOR_D_GGX_ANISO: Term = entry!(
     vector_d_ggx_aniso(l_x: L_X, l_y: L_Y, l_z: L_Z, v_x: V_X, v_y: V_Y, v_z: V_Z, alpha_x: ALPHA_X, alpha_y: ALPHA_Y),
     symbol: "D", latex: "D", cost: 20,
     doc: "D of a stretched GGX surface from light and view in the tangent frame",
-    source: "Burley 2012, eq. 13; Heitz 2014, eq. 85",
+    source: "Burley 2012, eq. 13; Heitz 2018, eq. 1",
     wgsl: None
 );
 
@@ -180,7 +180,7 @@ const VECTOR_V_GGX_ANISO: Term = entry!(
     vector_v_ggx_aniso(l_x: L_X, l_y: L_Y, l_z: L_Z, v_x: V_X, v_y: V_Y, v_z: V_Z, alpha_x: ALPHA_X, alpha_y: ALPHA_Y),
     symbol: "V", latex: "V", cost: 20,
     doc: "visibility of a stretched GGX surface from light and view in the tangent frame",
-    source: "Heitz 2014, eq. 87 and 99",
+    source: "Heitz 2014, eq. 86 and 99",
     wgsl: None
 );
 
@@ -193,7 +193,7 @@ const VECTOR_LAMBDA_GGX_ANISO: Term = entry!(
     vector_lambda_ggx_aniso(v_x: V_X, v_y: V_Y, v_z: V_Z, alpha_x: ALPHA_X, alpha_y: ALPHA_Y),
     symbol: "Λ", latex: r"\Lambda", cost: 15,
     doc: "Lambda of a stretched GGX surface from a direction in the tangent frame",
-    source: "Heitz 2014, eq. 72 and 80",
+    source: "Heitz 2014, eq. 86",
     wgsl: None
 );
 
@@ -206,7 +206,7 @@ const VECTOR_G1_GGX_ANISO: Term = entry!(
     vector_g1_ggx_aniso(v_x: V_X, v_y: V_Y, v_z: V_Z, alpha_x: ALPHA_X, alpha_y: ALPHA_Y),
     symbol: "G₁", latex: "G_1", cost: 15,
     doc: "masking of a stretched GGX surface from a direction in the tangent frame",
-    source: "Heitz 2014, eq. 43, 72 and 80",
+    source: "Heitz 2014, eq. 43 and 86",
     wgsl: None
 );
 

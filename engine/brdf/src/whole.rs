@@ -14,7 +14,7 @@ pub(crate) const TERMS: &[Term] = &[SPECULAR_GGX];
 /// f = D V = D G₂/(4 N·L N·V),    α = roughness²
 /// ```
 ///
-/// - *Source*: Cook and Torrance 1982, eq. 2, in the form of Walter et al. 2007, eq. 20; Heitz
+/// - *Source*: Cook and Torrance 1982, in the form of Walter et al. 2007, eq. 20; Heitz
 ///   2014, eq. 99.
 /// - *Arguments*: `n_dot_l` N·L in [0, 1]; `n_dot_v` N·V in [0, 1]; `n_dot_h` N·H in [0, 1];
 ///   `roughness` in [0, 1].

@@ -210,7 +210,7 @@ fn hemisphere_normal(v: &Vector, a: &Big, u0: &Big, u1: &Big, bits: usize) -> Ve
     normalize(&[a * &n[0], a * &n[1], n[2].max(&zero)])
 }
 
-/// Dupuy and Benyoub 2023, algorithm 1, with Eto and Tokuyoshi's bound.
+/// Dupuy and Benyoub 2023, with Eto and Tokuyoshi's bound.
 fn cap_normal(v: &Vector, a: &Big, u0: &Big, u1: &Big, k: &Big, bits: usize) -> Vector {
     let view = stretched(v, a);
     let low = k * &view[2];
