@@ -20,7 +20,7 @@
 //! the density D (n·h) and not with D.
 //!
 //! A cosine close to 1 no longer carries what D of a smooth surface depends on, which is 1 − N·H. Where
-//! vectors are at hand, [`crate::Ggx::d_between`] takes them.
+//! vectors are at hand, [`Ggx::d_between`](crate::Ggx::d_between) takes them.
 
 use crate::real::{Real, lit, one_minus_square, quotient, zero_unless_nan};
 use crate::term::{ALPHA, N_DOT_H, Param, Term, entry};

@@ -296,7 +296,7 @@ const DIFFUSE_OREN_NAYAR_FULL: Term = entry!(
 /// - *Right and wrong*: at albedo 1 the average over the hemisphere exceeds 1 above α ≈ 0.4; at α
 ///   = 1 up to 18 % more leaves than arrived. The (1 − f0) that the derivation has is not in it.
 ///
-/// Repeated ([`crate::walk::Split`]), that walk gives less of *single* on rough surfaces: 0.591 of
+/// Repeated ([`walk::Split`](crate::walk::Split)), that walk gives less of *single* on rough surfaces: 0.591 of
 /// the light at α = 1, where the fit has 0.708. Drawing the facets from D alone, as his slides
 /// print it, gives 0.685, and direction by direction half the distance from the fit: the fit seems
 /// to follow that walk, which is not reciprocal and does not agree with ∫ D G₂.

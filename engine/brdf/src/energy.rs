@@ -125,7 +125,7 @@ const F_MULTI_KULLA_CONTY: Term = entry!(
 ///   2014).
 /// - *Arguments*: `f_average` F_avg in [0, 1]; `albedo_average` E_avg, all in [0, 1].
 /// - *Value*: 0 to 1; multiply [`f_multi_kulla_conty`] by it, with F_avg of
-///   [`crate::f_schlick_average`].
+///   [`f_schlick_average`](crate::f_schlick_average).
 /// - *Outside*: both are brought into [0, 1].
 /// - *Error*: 3.5 ulp in f32, 3.2 in f64.
 pub fn multi_scattering_tint<R: Real>(f_average: R, albedo_average: R) -> R {

@@ -30,7 +30,7 @@ pub(crate) const TERMS: &[Term] = &[N_DOT_H_FROM, V_DOT_H_FROM, ALPHA_FILTERED];
 /// - *Error*: 2.9 ulp in f32, 2.5 in f64 — of N·H, which is not what matters.
 /// - *Right and wrong*: exact in algebra and hazardous in arithmetic: near the highlight N·H is
 ///   almost 1, and D of a smooth surface depends on 1 − N·H, of which this keeps few digits. In f32
-///   it is wrong by factors at small α. From vectors: [`crate::Ggx::d_between`].
+///   it is wrong by factors at small α. From vectors: [`Ggx::d_between`](crate::Ggx::d_between).
 ///
 /// ```
 /// let n_dot_h: f64 = brdf::n_dot_h_from(0.8, 0.6, 0.96);

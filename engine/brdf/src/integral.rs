@@ -9,7 +9,7 @@
 //! | share of a disc | [`share_ratio_above`] | closed form |
 //!
 //! E(μ) is the directional albedo with F = 1: what of the light from one direction leaves again after a
-//! single mirror. What is missing from 1 was mirrored down and lost; [`crate::energy`] puts it back.
+//! single mirror. What is missing from 1 was mirrored down and lost; [`energy`](crate::energy) puts it back.
 
 use crate::real::{Real, lit, zero_unless_nan};
 use crate::smith::sine;
@@ -318,13 +318,13 @@ impl<R: Real> View<R> {
         (c * c + self.alpha2 * ((lit::<R>(1.0) - c) * (lit::<R>(1.0) + c))).sqrt()
     }
 
-    /// [`crate::v_ggx`] of this view.
+    /// [`v_ggx`](crate::v_ggx) of this view.
     #[inline(always)]
     fn correlated(self, n_dot_l: R) -> R {
         lit::<R>(0.5) / (n_dot_l * self.projected + self.mu * self.project(n_dot_l))
     }
 
-    /// [`crate::v_ggx_separable`] of this view.
+    /// [`v_ggx_separable`](crate::v_ggx_separable) of this view.
     #[inline(always)]
     fn separable(self, n_dot_l: R) -> R {
         lit::<R>(1.0) / ((n_dot_l + self.project(n_dot_l)) * (self.mu + self.projected))
@@ -361,7 +361,7 @@ fn albedo<R: Real>(n_dot_v: R, alpha: R, visibility: impl Fn(View<R>, R) -> R) -
 /// - *Outside*: a view at or below 0 gives the limit at grazing; α = 0 is a mirror.
 /// - *Error*: 7.2e-6 in f32 (60 ulp of 1); 1e-12 at α = 1 in f64.
 ///
-/// About 10 µs. For a table of it see [`crate::AlbedoTable`], for fits [`crate::albedo_fits`].
+/// About 10 µs. For a table of it see [`AlbedoTable`](crate::AlbedoTable), for fits [`albedo_fits`](crate::albedo_fits).
 ///
 /// ```
 /// let mu: f64 = 0.3;

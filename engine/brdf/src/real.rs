@@ -26,7 +26,7 @@ pub trait Real:
     const TINY: f64;
     /// 2^k + 1 with k half the bits of the significand, for Dekker's splitting.
     const SPLITTER: f64;
-    /// How many terms of the series of [`crate::lambda_beckmann`] this precision can use.
+    /// How many terms of the series of [`lambda_beckmann`](crate::lambda_beckmann) this precision can use.
     const ERFC_TERMS: usize;
 
     /// The nearest number to `x`.
@@ -373,7 +373,7 @@ pub(crate) trait Single: Real {
         (lit::<Self>(1.0) - self) * (lit::<Self>(1.0) + self)
     }
 
-    /// sin and cos of 2π times this, see [`crate::batch::sin_cos_turn`].
+    /// sin and cos of 2π times this, see [`batch::sin_cos_turn`](crate::batch::sin_cos_turn).
     fn sin_cos_turn(self) -> (Self, Self);
 }
 

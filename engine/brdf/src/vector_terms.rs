@@ -343,7 +343,7 @@ const N_Z: Param = world("n_z", "normal in the world, third component");
 const L_WORLD: Param = world("l_x", "light in the world, a component");
 const V_WORLD: Param = world("v_x", "view in the world, a component");
 
-/// D of GGX in world space, see [`crate::d_ggx_world`].
+/// D of GGX in world space, see [`d_ggx_world`](crate::d_ggx_world).
 #[allow(clippy::too_many_arguments)]
 fn d_ggx_world<R: Real>(
     n_x: R,
@@ -368,7 +368,7 @@ const D_GGX_WORLD: Term = entry!(
     wgsl: None
 );
 
-/// D V F cos θ in world space, see [`crate::specular_ggx_world`].
+/// D V F cos θ in world space, see [`specular_ggx_world`](crate::specular_ggx_world).
 #[allow(clippy::too_many_arguments)]
 fn specular_ggx_world<R: Real>(
     n_x: R,

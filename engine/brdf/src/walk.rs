@@ -18,7 +18,7 @@
 //! ```
 //!
 //! No height distribution is needed: it cancels. With mirrors all light leaves again; its share after one
-//! hit is [`crate::albedo_ggx`].
+//! hit is [`albedo_ggx`](crate::albedo_ggx).
 //!
 //! Heitz, Hanika, d'Eon and Dachsbacher 2016; Hammon 2017, appendix, whose slides draw the normal from D
 //! alone: that is not the distribution of what a ray meets. `tests/hammon.rs` holds what follows: with

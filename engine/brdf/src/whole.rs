@@ -1,5 +1,5 @@
 //! Whole BRDFs from cosines, put together from the terms: [`specular_ggx`]. From vectors, which carry a
-//! smooth surface's digits, see [`crate::Specular`].
+//! smooth surface's digits, see [`Specular`](crate::Specular).
 
 use crate::d::d_ggx;
 use crate::real::{Real, lit, zero_unless_nan};

@@ -8,7 +8,7 @@
 //! World-space vectors are ill-conditioned: half a unit in the last place of n, l or v changes D of a smooth
 //! surface by thousands of units. What is here is not worse than that: `lobe stress` holds its error to
 //! the bound of the tangent frame or to what half a unit in each argument changes, whichever is more, and
-//! finds 0.31 of that change for D and 0.71 for the whole. Where the frame is known, [`crate::Ggx`] is
+//! finds 0.31 of that change for D and 0.71 for the whole. Where the frame is known, [`Ggx`](crate::Ggx) is
 //! better, because its arguments are. All vectors are expected to have length 1.
 
 use crate::ggx::Fresnel;
@@ -123,7 +123,7 @@ fn d_of_half<R: Real>(n: Vector<R>, h: [(R, R); 3], alpha: R) -> R {
 /// f cos θ = D V F N·L
 /// ```
 ///
-/// - *Source*: Walter et al. 2007, eq. 20; Heitz 2014, eq. 99: [`d_ggx_world`], [`crate::v_ggx`]
+/// - *Source*: Walter et al. 2007, eq. 20; Heitz 2014, eq. 99: [`d_ggx_world`], [`v_ggx`](crate::v_ggx)
 ///   and [`Fresnel::eval`].
 /// - *Arguments*: `n`, `l`, `v` of length 1; `alpha` α in [0, 1]; `fresnel` what the facets are
 ///   made of.
