@@ -35,6 +35,7 @@ pub(crate) const TERMS: &[Term] = &[
 /// - *Arguments*: `alpha` α = roughness² in [0, 1].
 /// - *Value*: 0.409 (α = 1) to 1 (a mirror).
 /// - *Outside*: the sign of α is ignored.
+/// - *Error*: that of [`albedo_ggx`], averaged.
 pub fn albedo_average_ggx<R: Real>(alpha: R) -> R {
     if alpha.is_nan() {
         return alpha;
@@ -167,6 +168,16 @@ const COMPENSATION_TURQUIN: Term = entry!(
 );
 
 /// A table of E over N·V and roughness, for callers that cannot wait for a quadrature.
+///
+/// E of GGX with F = 1 and the height-correlated G₂, [`albedo_ggx`], at the centres of a square grid.
+///
+/// ```
+/// let table = brdf::AlbedoTable::new(16);
+/// assert_eq!(table.values().len(), 16 * 16);
+/// let (n_dot_v, roughness) = (0.7f32, 0.6f32);
+/// let exact = brdf::albedo_ggx(n_dot_v, roughness * roughness);
+/// assert!((table.get(n_dot_v, roughness) - exact).abs() < 1e-3);
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct AlbedoTable {
     size: usize,
@@ -175,7 +186,9 @@ pub struct AlbedoTable {
 }
 
 impl AlbedoTable {
-    /// Computes `size`² entries, about 12 µs each.
+    /// Computes `size`² entries, about 10 µs each.
+    ///
+    /// - *Arguments*: `size` entries a side; 0 counts as 1.
     pub fn new(size: usize) -> AlbedoTable {
         let size = size.max(1);
         let at = |i: usize| (i as f32 + 0.5) / size as f32;
@@ -186,12 +199,19 @@ impl AlbedoTable {
         }
     }
 
-    /// Entries, row by row of constant roughness, N·V along the row.
+    /// All entries, as a texture is laid out: row by row of constant roughness, N·V along the row, both at
+    /// (i + ½)/size.
     pub fn values(&self) -> &[f32] {
         &self.values
     }
 
-    /// E between the entries, bilinear; outside them the nearest.
+    /// E between the entries, bilinear.
+    ///
+    /// - *Arguments*: `n_dot_v` N·V in [0, 1]; `roughness` in [0, 1], the square root of α.
+    /// - *Value*: 0 to 1.
+    /// - *Outside*: beyond the outermost entries the nearest, also for arguments outside [0, 1].
+    /// - *Error*: of 64 by 64 entries up to 2.5 % of the value at N·V = 0.05, and 7e-5 in the median of
+    ///   the points that are tried.
     pub fn get(&self, n_dot_v: f32, roughness: f32) -> f32 {
         let last = self.size - 1;
         let place = |x: f32| {

@@ -127,22 +127,43 @@ const ALPHA_FILTERED: Term = entry!(
 }")
 );
 
-/// Rusinkiewicz coordinates of an isotropic BRDF, in radians.
+/// Rusinkiewicz coordinates of an isotropic BRDF, in radians: the half vector's tilt, and where the light
+/// is around it.
+///
+/// In them a highlight is a function of θ_h, and the Fresnel effect one of θ_d: slices and measured
+/// tables of BRDFs are laid out by them.
+///
+/// ```
+/// use brdf::Rusinkiewicz;
+/// let (l, v) = ([0.6f64, 0.0, 0.8], [0.0, 0.6, 0.8]);
+/// let slice = Rusinkiewicz::new(l, v);
+/// // cos θ_h is N·H, and cos θ_d is V·H.
+/// let l_dot_v = 0.64;
+/// assert!((slice.theta_h.cos() - brdf::n_dot_h_from(0.8, 0.8, l_dot_v)).abs() < 1e-15);
+/// assert!((slice.theta_d.cos() - brdf::v_dot_h_from(0.8, 0.8, l_dot_v)).abs() < 1e-15);
+/// // And back: the same pair, turned around the normal.
+/// let (l, v) = slice.directions();
+/// assert!((l[2] - 0.8).abs() < 1e-15 && (v[2] - 0.8).abs() < 1e-15);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rusinkiewicz<R> {
-    /// Between the normal and the half vector, 0 to π/2.
+    /// Angle between the normal and the half vector, 0 to π/2 for directions above the horizon.
     pub theta_h: R,
-    /// Between the half vector and the light, 0 to π/2.
+    /// Angle between the half vector and the light (or the view), 0 to π/2.
     pub theta_d: R,
-    /// Azimuth of the light around the half vector, 0 to π where it mirrors (−π to π).
+    /// Azimuth of the light around the half vector, −π to π, 0 where the light leans away from the normal
+    /// in the plane of normal and half vector. A reciprocal BRDF has the same value at φ_d ± π.
     pub phi_d: R,
 }
 
 impl<R: Real> Rusinkiewicz<R> {
-    /// Coordinates of a light and a view of length 1 in the tangent frame.
+    /// Coordinates of a light and a view.
     ///
-    /// Rusinkiewicz 1998. Angles by the arc tangent, which keeps small ones. Where l = −v there
-    /// is no half vector; the normal stands in for it.
+    /// - *Source*: Rusinkiewicz 1998.
+    /// - *Arguments*: `l` and `v` the directions to light and viewer in the tangent frame, of length 1.
+    /// - *Value*: three angles in radians. Small ones are small differences of vectors, not of cosines.
+    /// - *Outside*: where l = −v there is no half vector, and the normal stands in for it; where l = v
+    ///   φ_d means nothing.
     pub fn new(l: impl Into<Vector<R>>, v: impl Into<Vector<R>>) -> Rusinkiewicz<R> {
         let l = l.into();
         let h = normalize(add(l, v.into()));
@@ -164,6 +185,9 @@ impl<R: Real> Rusinkiewicz<R> {
     }
 
     /// A light and a view with these coordinates, the half vector in the xz plane.
+    ///
+    /// - *Source*: Rusinkiewicz 1998, the other way.
+    /// - *Value*: light and view of length 1 in the tangent frame; either may lie below the horizon.
     pub fn directions(self) -> (Vector<R>, Vector<R>) {
         let (sin_h, cos_h) = (self.theta_h.sin(), self.theta_h.cos());
         let sin_d = self.theta_d.sin();

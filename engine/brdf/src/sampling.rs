@@ -21,12 +21,15 @@ use crate::real::{Real, lit, zero_unless_nan};
 use crate::vector::{Vector, dot, normalize, rescued, tamed};
 use std::f64::consts::{FRAC_1_PI, PI};
 
-/// How to draw directions.
+/// How to draw lights for a view. In the order of what they know: the visible normals twice, the visible
+/// normals that mirror upwards, and nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sampler {
-    /// Visible normals from a projected hemisphere (Heitz 2018, JCGT 7-4).
+    /// Visible normals from a projected hemisphere (Heitz 2018, JCGT 7-4). Numbers that are close to one
+    /// another give normals that are.
     Hemisphere,
-    /// The same normals from a spherical cap (Dupuy and Benyoub 2023, CGF 42-8).
+    /// The same normals from a spherical cap (Dupuy and Benyoub 2023, CGF 42-8): the same density, with
+    /// less arithmetic.
     SphericalCap,
     /// A cap without directions that must end below the horizon (Eto and Tokuyoshi 2023,
     /// SIGGRAPH Asia technical communications). The best of them, but for α near 1.
@@ -35,17 +38,20 @@ pub enum Sampler {
     Cosine,
 }
 
-/// A drawn direction.
+/// A light that was drawn for a view.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample<R> {
-    /// The direction of the light. Below the horizon the weight is 0.
+    /// Its direction in the tangent frame, of length 1. It may lie below the horizon, where its weight is 0:
+    /// the light is lost there, and to count only the others would be wrong.
     pub l: Vector<R>,
-    /// BRDF (F = 1) times N·L over the density.
+    /// BRDF (F = 1) times N·L over the density: times the reflectance and the light that comes from there,
+    /// what the view gets. 0 to 1, but for [`Sampler::Cosine`], where it has no bound.
     pub weight: R,
-    /// Density with respect to the solid angle of `l`, in 1/sr.
+    /// Density with respect to the solid angle of `l`, in 1/sr, see [`Ggx::pdf`].
     pub pdf: R,
 }
 
+/// Lights drawn for a view: how, how densely, and what each counts.
 impl<R: Real> Ggx<R> {
     /// Density with which [`Ggx::sample`] draws `l` for a view `v`, for `l` above the horizon.
     ///
@@ -55,9 +61,11 @@ impl<R: Real> Ggx<R> {
     ///
     /// - *Source*: Heitz 2018; Dupuy and Benyoub 2023; Eto and Tokuyoshi 2023.
     /// - *Arguments*: `l` and `v` the directions to light and viewer in the tangent frame, of length
-    ///   1; `sampler` how.
-    /// - *Value*: 1/sr.
-    /// - *Outside*: below the horizon [`Sampler::BoundedCap`] may never draw what has a density here.
+    ///   1; `sampler` by which the light was drawn.
+    /// - *Value*: 1/sr, 0 to +∞. Its integral over all lights, those below the horizon included, is 1.
+    /// - *Outside*: the density of the visible normals holds for views below the horizon, too. Of lights
+    ///   below it, [`Sampler::BoundedCap`] may never draw what has a density here, and
+    ///   [`Sampler::Cosine`] has none: 0.
     /// - *Error*: 10.5 ulp in f32, 8.1 in f64; 7.4 and 6.4 on a stretched surface.
     #[inline(always)]
     pub fn pdf(&self, l: impl Into<Vector<R>>, v: impl Into<Vector<R>>, sampler: Sampler) -> R {
@@ -115,13 +123,15 @@ impl<R: Real> Ggx<R> {
         (a, lit::<R>(1.0) + (v[0] * v[0] + v[1] * v[1]).sqrt())
     }
 
-    /// Draws a light for a view from two numbers.
+    /// Draws a light for a view from two numbers: the direction, its density, and what it counts.
     ///
     /// - *Source*: Heitz 2018, listing 1; Dupuy and Benyoub 2023; Eto and Tokuyoshi 2023.
-    /// - *Arguments*: `v` the view, of length 1; `u` two numbers in [0, 1), brought into [0, 1];
-    ///   `sampler` how.
+    /// - *Arguments*: `v` the view, of length 1; `u` two numbers in [0, 1); `sampler` in which
+    ///   of four ways.
     /// - *Value*: the direction, its weight BRDF · N·L / density (F = 1) and its density in 1/sr, both
-    ///   of the direction as rounded.
+    ///   of the direction as rounded. The mean weight is the directional albedo.
+    /// - *Outside*: numbers are brought into [0, 1]. A view below the horizon draws normals that it sees
+    ///   from there, with the weight 0; the cosine does not ask for the view.
     /// - *Error*: of the direction at most 12 ulp of 1, or what half a unit in the last place of
     ///   each argument changes, where that is more (0.38 to 0.55 of it found); of its density 10.7 ulp, of its
     ///   weight 6.3.
@@ -175,7 +185,7 @@ impl<R: Real> Ggx<R> {
     ///
     /// - *Source*: Heitz 2018; Eto and Tokuyoshi 2023.
     /// - *Arguments*: `l` and `v` the directions to light and viewer in the tangent frame, of length
-    ///   1; `sampler` how.
+    ///   1; `sampler` by which the light was drawn.
     /// - *Value*: 0 to 1 for visible normals, of full accuracy however smooth the surface, since D
     ///   cancels.
     /// - *Outside*: 0 where the light or the view is not above the horizon.

@@ -14,6 +14,12 @@ use crate::batch::Isa;
 use std::sync::LazyLock;
 
 /// What an argument of a term means, and where it may lie.
+///
+/// ```
+/// let alpha = brdf::term("d_ggx").expect("a term of that name").params[1];
+/// assert_eq!((alpha.name, alpha.unit, alpha.range.1), ("alpha", "1", 1.0));
+/// assert!(alpha.is_of_material());
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Param {
     /// Name as written in a formula, `n_dot_h`.
@@ -21,7 +27,7 @@ pub struct Param {
     /// Sensible closed range, for random points and checks. Values outside it are allowed;
     /// the documentation of each function says what they give.
     pub range: (f64, f64),
-    /// Unit, `1` for a pure number.
+    /// Unit: `1` for a pure number, `rad`, `deg`.
     pub unit: &'static str,
     /// What it is, in a few words.
     pub meaning: &'static str,
@@ -99,12 +105,21 @@ static TERMS: LazyLock<Vec<Term>> = LazyLock::new(|| {
     .concat()
 });
 
-/// Every term, family by family.
+/// Every term, family by family, in an order that does not change from call to call.
+///
+/// ```
+/// // A formula sheet: the symbol, the source and the value in the middle of each range.
+/// for term in brdf::terms().iter().filter(|term| term.cost < 1000) {
+///     let middle: Vec<f64> = term.params.iter().map(|p| (p.range.0 + p.range.1) / 2.0).collect();
+///     println!("{:14} {:22} {:8.4}   {}", term.symbol, term.name, (term.f64)(&middle), term.source);
+///     assert!(!(term.f64)(&middle).is_nan());
+/// }
+/// ```
 pub fn terms() -> &'static [Term] {
     &TERMS
 }
 
-/// The term of that name.
+/// The term of that name, `None` if there is none. Names are those of the functions.
 pub fn term(name: &str) -> Option<&'static Term> {
     terms().iter().find(|term| term.name == name)
 }

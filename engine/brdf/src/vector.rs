@@ -1,10 +1,31 @@
-//! Three components in the tangent frame, z along the normal.
+//! Three components: what is a direction here.
+//!
+//! In the tangent frame x is along the tangent, y along the bitangent and z along the normal, so that N·L
+//! is the third component of l. Functions with `world` in their name take any frame, and the normal with
+//! it.
+//!
+//! ```
+//! use brdf::{Ggx, glam};
+//! let ggx = Ggx::new(0.25f32);
+//! // An array, or glam's vector.
+//! let single = ggx.g1([0.6, 0.0, 0.8]);
+//! assert_eq!(single, ggx.g1(glam::Vec3::new(0.6, 0.0, 0.8)));
+//! let double = Ggx::new(0.25f64).g1([0.6, 0.0, 0.8]);
+//! assert!((double - f64::from(single)).abs() < 1e-6);
+//! ```
 
 use crate::real::{Real, lit};
 
 /// A vector in the tangent frame: along the tangent, the bitangent and the normal.
 ///
-/// `glam::Vec3` turns into it by itself wherever `impl Into<Vector<R>>` is asked for.
+/// `glam::Vec3` turns into it by itself wherever `impl Into<Vector<f32>>` is asked for, `Vec3::from` turns
+/// it back, and `glam::DVec3` does the same for `f64`, where glam is built with it.
+///
+/// A direction points away from the surface and has length 1; rounding may make it a little longer or
+/// shorter. What a function does with another length is said there; where nothing is said, the value
+/// is that of the direction wherever the squares of the components would overflow or vanish, and
+/// otherwise whatever the formula gives. A direction without length counts as the normal there. A
+/// component that is NaN gives NaN, or 0 where another component alone decides.
 pub type Vector<R> = [R; 3];
 
 #[inline(always)]

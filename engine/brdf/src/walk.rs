@@ -52,32 +52,32 @@ use crate::vector::{Vector, add, dot, normalize, reflect, scale};
 use glam::Vec3;
 use std::f64::consts::PI;
 
-/// What the facets are made of.
+/// What the facets of a walk are made of.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Facets<R> {
     /// Perfect mirrors: all light leaves again.
     Mirror,
     /// Lambertian, with their own albedo.
     Diffuse {
-        /// Share that is not absorbed at a hit.
+        /// Share that is not absorbed at a hit, in [0, 1].
         albedo: R,
     },
     /// A smooth coat over a diffuse base: mirrored with Schlick's reflectance, else let in,
     /// and out again with density ∝ cos θ (1 − (1 − cos θ)⁵) (Hammon 2017).
     Coated {
-        /// Reflectance of the coat at normal incidence.
+        /// Reflectance of the coat at normal incidence, in [0, 1].
         f0: R,
-        /// Albedo of the base.
+        /// Albedo of the base, in [0, 1].
         albedo: R,
     },
 }
 
-/// A ray that has left the surface.
+/// A ray that has left the surface: where to, and after what.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Exit<R> {
-    /// Where to.
+    /// Its direction in the tangent frame, of length 1, above the horizon.
     pub l: Vector<R>,
-    /// What is left of its energy.
+    /// What is left of its energy, 0 to 1: the product of the albedos on its way.
     pub weight: R,
     /// Hits on the way, at least 1.
     pub bounces: u32,
@@ -88,9 +88,15 @@ pub struct Exit<R> {
 /// Walks longer than this are given up; for α ≤ 1 none is seen.
 const MOST_BOUNCES: u32 = 10_000;
 
-/// One walk from a view above the horizon; `next` gives numbers in (0, 1).
+/// One walk between the facets, from a view until it leaves again.
 ///
-/// `None` where it was given up, which no α in [0, 1] needs.
+/// - *Source*: Heitz, Hanika, d'Eon and Dachsbacher 2016; Hammon 2017, appendix, with the correction
+///   that this module's page tells of.
+/// - *Arguments*: `ggx` how the facets lie; `facets` what they are made of; `v` where the ray comes
+///   from, of length 1 and above the horizon; `next` gives independent numbers in (0, 1).
+/// - *Value*: the ray that has left. `None` where it was given up after 10,000 hits, which no α in [0, 1]
+///   needs.
+/// - *Outside*: what comes from below the horizon leaves at once, without a hit.
 pub fn walk<R: Real>(
     ggx: Ggx<R>,
     facets: Facets<R>,
@@ -170,8 +176,13 @@ pub struct Split {
 }
 
 impl Split {
-    /// Follows `walks` rays from a view into facets under a coat with the reflectance `f0` at
-    /// normal incidence; `next` gives numbers in (0, 1).
+    /// Follows rays from a view into facets under a coat.
+    ///
+    /// - *Source*: Hammon 2017, appendix, with visible normals.
+    /// - *Arguments*: `ggx` how the facets lie; `f0` the coat's reflectance at normal incidence; `v` the
+    ///   view, of length 1 and above the horizon; `walks` how many rays; `next` gives independent numbers
+    ///   in (0, 1).
+    /// - *Value*: shares of the light, each with a standard error of at most 0.5/sqrt(walks).
     pub fn new<R: Real>(
         ggx: Ggx<R>,
         f0: R,
@@ -208,7 +219,11 @@ impl Split {
         more.fold(0.0, |rest, share| share + albedo * rest)
     }
 
-    /// Share of the energy that leaves without being only mirrored.
+    /// Share of the energy that leaves after having been inside, for a base of that albedo in [0, 1]:
+    /// albedo (single + albedo multi).
+    ///
+    /// With `specular` it is all that comes back: 1 for a white base, but for the few walks that were inside
+    /// more than sixteen times.
     pub fn diffuse(&self, albedo: f64) -> f64 {
         albedo * (self.single() + albedo * self.multi(albedo))
     }
@@ -229,19 +244,34 @@ fn cosine_around<R: Real>(m: Vector<R>, u: [R; 2]) -> Vector<R> {
     normalize(add(m, [sin * phi.cos(), sin * phi.sin(), z]))
 }
 
-/// What [`walk_mirrors`] fills in.
+/// What [`walk_mirrors`] fills in: one element a walk. What is longer than the shortest slice is left alone.
 #[derive(Debug)]
 pub struct Walks<'a> {
-    /// Where each ray left to, along the tangent, the bitangent and the normal.
+    /// Where each ray left to, of length 1: along the tangent, the bitangent and the normal.
     pub l: [&'a mut [f32]; 3],
-    /// How often it was mirrored.
+    /// How often it was mirrored, at least once.
     pub bounces: &'a mut [u32],
 }
 
 /// Walks between perfect mirrors from one view, one for each element of the slices.
 ///
-/// The same seed gives the same walks, up to the rounding of an instruction set. α is the same
-/// in all directions and in [1e-4, 1].
+/// - *Source*: as [`walk()`].
+/// - *Arguments*: `isa` the instructions to use, see [`Isa::best`]; `v` where the rays come from, of length 1
+///   and above the horizon; `alpha` α in [1e-4, 1], the same in all directions; `seed` any number: the same
+///   gives the same walks, up to the rounding of an instruction set.
+/// - *Value*: in `out`.
+/// - *Outside*: as of all [`crate::batch`]es, what is outside may be NaN.
+///
+/// ```
+/// use brdf::{batch::Isa, glam::Vec3, walk::{Walks, walk_mirrors}};
+/// let [mut x, mut y, mut z] = [(); 3].map(|()| vec![0.0f32; 20_000]);
+/// let mut bounces = vec![0; 20_000];
+/// let out = Walks { l: [&mut x, &mut y, &mut z], bounces: &mut bounces };
+/// walk_mirrors(Isa::best(), Vec3::new(0.6, 0.0, 0.8), 0.5, 1, out);
+/// // One bounce is single scattering.
+/// let once = bounces.iter().filter(|&&bounces| bounces == 1).count() as f64 / 20_000.0;
+/// assert!((once - brdf::albedo_ggx(0.8, 0.5)).abs() < 0.02);
+/// ```
 pub fn walk_mirrors(isa: Isa, v: Vec3, alpha: f32, seed: u64, out: Walks) {
     dispatch!(isa, walks_body(v: Vec3, alpha: f32, seed: u64, out: Walks))
 }

@@ -143,7 +143,10 @@ fn conductor<R: Real>(n: R, k: R, v_dot_h: R) -> (R, R) {
 
 /// [`f_conductor`] in three colours.
 ///
-/// - *Arguments*: `n` and `k` red, green and blue; `v_dot_h` V·H in [0, 1].
+/// - *Source*: as [`f_conductor`].
+/// - *Arguments*: `n` and `k` red, green and blue, each at least 0; `v_dot_h` V·H in [0, 1].
+/// - *Value*: red, green and blue, each 0 to 1.
+/// - *Outside*: as [`f_conductor`].
 /// - *Error*: that of [`f_conductor`]. Many at once: [`batch::conductor_rgb`](crate::batch::conductor_rgb).
 #[inline(always)]
 pub fn conductor_rgb<R: Real>(n: [R; 3], k: [R; 3], v_dot_h: R) -> [R; 3] {

@@ -5,6 +5,7 @@ use crate::real::{Real, lit, plus, quotient, squared, times, zero_unless_nan};
 use crate::vector::{Vector, rescued};
 use std::f64::consts::FRAC_1_PI;
 
+/// D: how the normals are distributed.
 impl<R: Real> Ggx<R> {
     /// D of a half vector of any length, such as l + v.
     ///

@@ -5,6 +5,7 @@ use super::distribution::half_squared;
 use crate::real::{Real, lit, zero_unless_nan};
 use crate::vector::{Vector, rescued};
 
+/// D V: the BRDF of perfect mirrors.
 impl<R: Real> Ggx<R> {
     /// The BRDF with F = 1: D V.
     ///

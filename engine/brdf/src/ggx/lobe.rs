@@ -8,17 +8,28 @@ use crate::real::{Real, lit};
 use crate::sampling::{Sample, Sampler};
 use crate::vector::{Vector, rescued};
 
-/// A whole specular lobe: GGX with mirrors of some material.
+/// A whole specular lobe: a GGX surface whose facets are mirrors of some material.
+///
+/// ```
+/// use brdf::{Fresnel, Ggx, Specular};
+/// let plastic = Specular { ggx: Ggx::new(0.16f64), fresnel: Fresnel::Dielectric { eta: 1.5 } };
+/// let (l, v) = ([0.6, 0.0, 0.8], [-0.6, 0.0, 0.8]);
+/// let [red, ..] = plastic.eval_cos(l, v);
+/// // D V F N·L, all of it at N·H = 1 and V·H = 0.8.
+/// let (d, v, f) = (brdf::d_ggx(1.0, 0.16), brdf::v_ggx(0.8, 0.8, 0.16), brdf::f_dielectric(1.5, 0.8));
+/// assert!((red - d * v * f * 0.8).abs() < 1e-13);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Specular<R> {
-    /// How the facets lie.
+    /// How the facets lie: D and V.
     pub ggx: Ggx<R>,
-    /// What they are made of.
+    /// What they are made of: F.
     pub fresnel: Fresnel<R>,
 }
 
 impl<R: Real> Specular<R> {
-    /// BRDF times N·L.
+    /// BRDF times N·L: the radiance that a distant light of irradiance 1, across its direction, has in the
+    /// view.
     ///
     /// ```text
     /// f cos θ = D V F N·L
@@ -27,8 +38,8 @@ impl<R: Real> Specular<R> {
     /// - *Source*: Walter et al. 2007, eq. 20; Heitz 2014, eq. 99.
     /// - *Arguments*: `l` and `v` the directions to light and viewer in the tangent frame, of length
     ///   1.
-    /// - *Value*: 1/sr, red, green and blue.
-    /// - *Outside*: 0 below the horizon.
+    /// - *Value*: 1/sr, red, green and blue, each 0 to +∞. Over N·L it is reciprocal.
+    /// - *Outside*: 0 where the light or the view is below the horizon.
     /// - *Error*: with Schlick's reflectance 20.9 ulp in f32 and f64.
     #[inline(always)]
     pub fn eval_cos(&self, l: impl Into<Vector<R>>, v: impl Into<Vector<R>>) -> [R; 3] {
@@ -65,9 +76,14 @@ impl<R: Real> Specular<R> {
     /// Draws a light for a view: the direction, its density, and BRDF · N·L / density in three
     /// colours.
     ///
-    /// - *Arguments*: `v` the view; `u` two numbers in [0, 1); `sampler` how.
-    ///
-    /// The mean of the weights over many `u` is the directional albedo. See [`Ggx::sample`].
+    /// - *Source*: as [`Ggx::sample`], with the weight times [`Fresnel::eval`].
+    /// - *Arguments*: `v` the view in the tangent frame, of length 1; `u` two numbers in [0, 1);
+    ///   `sampler` in which of four ways.
+    /// - *Value*: the light as drawn for F = 1, and its weight in red, green and blue. The mean of the
+    ///   weights over many `u` is the directional albedo in that colour.
+    /// - *Outside*: as [`Ggx::sample`].
+    /// - *Error*: of the direction and its density that of [`Ggx::sample`]; to its weight's, that of
+    ///   [`Fresnel::eval`] is added.
     ///
     /// ```
     /// use brdf::{Fresnel, Ggx, Sampler, Specular};

@@ -25,70 +25,25 @@
 //! assert!(red > green && green > blue);
 //! ```
 
+// In the order in which the documentation shows what they add to the surface.
+mod surface;
+
 mod distribution;
+
+mod visibility;
+
 mod eval;
+
 mod half_angle;
 mod lobe;
 mod mirror;
-mod visibility;
 
 pub use half_angle::v_dot_h_and_rest;
 pub use lobe::Specular;
 pub use mirror::Fresnel;
+pub use surface::Ggx;
 
 use crate::real::{Real, lit};
-use crate::vector::Vector;
-
-/// A GGX surface: its widths along the tangent and the bitangent.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ggx<R> {
-    /// Width along the tangent, more than 0.
-    pub alpha_x: R,
-    /// Width along the bitangent, more than 0.
-    pub alpha_y: R,
-}
-
-impl<R: Real> Ggx<R> {
-    /// The same width in all directions.
-    ///
-    /// - *Arguments*: `alpha` α = roughness² in (0, 1]; 0 is a mirror.
-    #[inline(always)]
-    pub fn new(alpha: R) -> Ggx<R> {
-        Ggx {
-            alpha_x: alpha,
-            alpha_y: alpha,
-        }
-    }
-
-    /// The same with widths whose squares can be computed with.
-    pub(crate) fn tamed(&self) -> Ggx<R> {
-        let width = |alpha: R| alpha.abs().at_least(lit(1e-9)).at_most(lit(1e6));
-        Ggx {
-            alpha_x: width(self.alpha_x),
-            alpha_y: width(self.alpha_y),
-        }
-    }
-
-    /// x and y of a vector, each times its width.
-    #[inline(always)]
-    pub(crate) fn stretched(&self, v: Vector<R>) -> (R, R) {
-        (self.alpha_x * v[0], self.alpha_y * v[1])
-    }
-
-    /// How long a direction is where the surface is squeezed to α = 1.
-    ///
-    /// ```text
-    /// sqrt(z² + α_x² x² + α_y² y²) = z sqrt(1 + α² tan²θ)
-    /// ```
-    ///
-    /// - *Arguments*: `v`.
-    #[inline(always)]
-    pub fn projected(&self, v: impl Into<Vector<R>>) -> R {
-        let v = v.into();
-        let (x, y) = self.stretched(v);
-        (v[2] * v[2] + (x * x + y * y)).sqrt()
-    }
-}
 
 /// The square of an unevaluated sum, without its last term.
 #[inline(always)]

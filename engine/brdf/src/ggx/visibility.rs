@@ -4,6 +4,7 @@ use super::Ggx;
 use crate::real::{Real, lit, zero_unless_nan};
 use crate::vector::{Vector, rescued};
 
+/// Λ, G₁ and V: what is hidden, and what is seen.
 impl<R: Real> Ggx<R> {
     /// Λ of a direction, see [`lambda_ggx`](crate::lambda_ggx).
     ///
