@@ -3,6 +3,7 @@
 //! in an error scope.
 
 use crate::error::Error;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Threads of a workgroup: what a shader must declare.
 pub(crate) const WORKGROUP: usize = 64;
@@ -19,7 +20,13 @@ pub(crate) struct Device {
     tick: Option<f64>,
     /// The adapter in words.
     pub name: String,
+    /// Whether it is a processor's imitation.
+    is_software: bool,
 }
+
+/// The device that was opened first and has not failed since: opening one, drivers and all, takes
+/// longer than a picture, and a process draws many.
+static OPENED: Mutex<Option<Arc<Device>>> = Mutex::new(None);
 
 /// A compute shader with the entry point `shade`: it reads an array of f32 (binding 0), a few for
 /// each point, and writes one (binding 1).
@@ -58,13 +65,17 @@ fn adapter(wanted: Wanted) -> Result<(wgpu::Adapter, wgpu::AdapterInfo), Error> 
     let adapter =
         pollster::block_on(request).map_err(|_| Error::NoAdapter("none was found".to_owned()))?;
     let info = adapter.get_info();
-    if wanted == Wanted::Hardware && info.device_type == wgpu::DeviceType::Cpu {
+    if wanted == Wanted::Hardware && is_software(&info) {
         return Err(Error::NoAdapter(format!(
             "{} is a software driver",
             info.name
         )));
     }
     Ok((adapter, info))
+}
+
+fn is_software(info: &wgpu::AdapterInfo) -> bool {
+    info.device_type == wgpu::DeviceType::Cpu
 }
 
 /// Whether a real graphics processor can be there at all: loading every installed driver to find
@@ -99,7 +110,27 @@ pub fn gpu_adapter() -> Result<String, Error> {
 }
 
 impl Device {
-    pub fn open(wanted: Wanted) -> Result<Self, Error> {
+    /// The process's device, opened where there is none yet.
+    pub fn shared(wanted: Wanted) -> Result<Arc<Self>, Error> {
+        // A panic elsewhere leaves a whole device or none.
+        let mut opened = OPENED.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(device) = opened.as_ref()
+            && (wanted == Wanted::Any || !device.is_software)
+        {
+            return Ok(Arc::clone(device));
+        }
+        let device = Arc::new(Self::open(wanted)?);
+        *opened = Some(Arc::clone(&device));
+        Ok(device)
+    }
+
+    /// The next picture is to open another: this one has failed.
+    fn give_up(&self) {
+        let mut opened = OPENED.lock().unwrap_or_else(PoisonError::into_inner);
+        opened.take_if(|device| std::ptr::eq(device.as_ref(), self));
+    }
+
+    fn open(wanted: Wanted) -> Result<Self, Error> {
         let (adapter, info) = adapter(wanted)?;
         let clock = wgpu::Features::TIMESTAMP_QUERY;
         let request = adapter.request_device(&wgpu::DeviceDescriptor {
@@ -116,6 +147,7 @@ impl Device {
             device,
             queue,
             name: describe(&info),
+            is_software: is_software(&info),
         })
     }
 
@@ -150,7 +182,9 @@ impl Device {
             ..Computed::default()
         };
         for points in input.chunks(CHUNK * read) {
-            let part = self.dispatch(kernel, points, points.len() / read, written)?;
+            let part = self
+                .dispatch(kernel, points, points.len() / read, written)
+                .inspect_err(|_| self.give_up())?;
             whole.values.extend(part.values);
             let sum = whole.nanoseconds.zip(part.nanoseconds);
             whole.nanoseconds = sum.map(|(a, b)| a + b);

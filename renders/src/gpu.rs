@@ -9,11 +9,12 @@ use crate::scene::VARYING;
 use crate::shade::Values;
 use formula::{Expr, Library, Wgsl};
 use std::fmt::Write as _;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A device with the two formulas compiled for it.
 pub(crate) struct Gpu {
-    device: Device,
+    device: Arc<Device>,
     kernel: Kernel,
     second_is_ratio: bool,
     /// The places in [`VARYING`] of what a point is told, in the shader's order.
@@ -26,7 +27,7 @@ pub(crate) struct Gpu {
 impl Gpu {
     pub fn new(wanted: Wanted, fingerprint: &Fingerprint<'_>, plan: &Plan) -> Result<Self, Error> {
         let source = shader(fingerprint, plan)?;
-        let device = Device::open(wanted)?;
+        let device = Device::shared(wanted)?;
         Ok(Self {
             kernel: device.kernel(source)?,
             second_is_ratio: plan.ratio.is_some(),
@@ -159,7 +160,7 @@ fn shader(fingerprint: &Fingerprint<'_>, plan: &Plan) -> Result<String, Error> {
 /// Formulas evaluated on a graphics processor at points of one's own: to hold a shader's
 /// arithmetic against the core's.
 pub struct GpuFormulas {
-    device: Device,
+    device: Arc<Device>,
 }
 
 impl GpuFormulas {
@@ -168,7 +169,7 @@ impl GpuFormulas {
     /// # Errors
     /// [`Error::NoAdapter`] where there is none.
     pub fn open() -> Result<Self, Error> {
-        let device = Device::open(Wanted::Any)?;
+        let device = Device::shared(Wanted::Any)?;
         Ok(Self { device })
     }
 

@@ -373,6 +373,21 @@ pub fn visibility(fingerprint: &Fingerprint<'_>, options: &Options) -> Result<Vi
     Ok(visibility::measure(fingerprint, &cpu, &tally))
 }
 
+/// What a graphics processor's own clock says both panels take it, in milliseconds; `None` where it
+/// has no clock, or where none draws.
+///
+/// # Errors
+/// As [`render`].
+pub fn device_ms(fingerprint: &Fingerprint<'_>, options: &Options) -> Result<Option<f64>, Error> {
+    let plan = Plan::of(fingerprint, options.skip);
+    let shown = Shown {
+        exposure: 1.0,
+        raw: true,
+    };
+    let drawn = draw_panels(fingerprint, options, &plan, shown, &AtomicBool::new(false))?;
+    Ok(drawn.device_ms)
+}
+
 /// At how many points, over all lights, the formulas are evaluated for a picture.
 ///
 /// # Errors
