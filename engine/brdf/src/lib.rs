@@ -3,33 +3,78 @@
 //! place.
 //!
 //! ```text
-//! f(l, v) = D(h) F(v·h) G₂(l, v) / (4 N·L N·V) = D F V        specular, in 1/sr
 //! L_o(v)  = ∫ f(l, v) L_i(l) N·L dl                           what the eye sees
+//! f(l, v) = D(h) F(V·H) G₂(l, v) / (4 N·L N·V) = D F V        the specular part, in 1/sr
 //! ```
 //!
-//! # Which function for which symbol
+//! A surface is made of facets too small to be seen. D says how many are turned to h, the one direction
+//! that mirrors l into v; F how much of the light these reflect; G₂ how many of them both directions see.
 //!
-//! | symbol | meaning | from cosines | from vectors |
+//! # The formula sheet
+//!
+//! n, l, v are the directions of the normal, to the light and to the viewer, of length 1, and N·L, N·V,
+//! L·V the cosines between them. θ is the angle between the normal and the direction a formula is about.
+//!
+//! | | the half vector | from cosines | from vectors |
 //! |---|---|---|---|
-//! | α | width, roughness² | | [`alpha_filtered`] |
-//! | h, N·H, V·H | half vector | [`n_dot_h_from`], [`v_dot_h_from`] | [`v_dot_h_and_rest`] |
-//! | D | distribution, 1/sr | [`d_ggx`], [`d_beckmann`], [`d_blinn_phong`], [`d_ggx_aniso`] | [`Ggx::d_between`], [`d_ggx_world`] |
-//! | Λ | hidden over seen | [`lambda_ggx`], [`lambda_beckmann`] | [`Ggx::lambda`] |
-//! | G₁, 1 − G₁ | masking | [`g1_ggx`], [`g1_beckmann`], [`one_minus_g1_ggx`] | [`Ggx::g1`] |
-//! | G₂ | masking and shadowing | [`g2_ggx`], [`g2_ggx_separable`], [`g2_ggx_hammon`], [`g2_beckmann`], [`gsf`] | |
-//! | V | G₂/(4 N·L N·V) | [`v_ggx`], [`v_ggx_separable`], [`v_ggx_hammon`] | [`Ggx::visibility`] |
-//! | F | reflectance | [`f_schlick`], [`f_dielectric`], [`f_conductor`], [`f_lazanyi`] | [`Fresnel`] |
-//! | f | BRDF, 1/sr | [`specular_ggx`] | [`Ggx::eval`], [`Specular::eval_cos`], [`specular_ggx_world`] |
-//! | f_d | diffuse, 1/sr | [`diffuse_lambert`], [`diffuse_disney`], [`diffuse_oren_nayar`], [`diffuse_hammon`], [`diffuse_eon`] | |
-//! | p, w | density, weight of a drawn light | | [`Ggx::sample`], [`Ggx::pdf`], [`Ggx::weight`] |
-//! | E, E_avg | directional albedo | [`albedo_ggx`], [`albedo_average_ggx`], [`AlbedoTable`], [`albedo_fits`] | |
-//! | f_ms | energy put back | [`f_multi_kulla_conty`], [`compensation_turquin`] | |
-//! | ∫ D | facet area | [`integral_d_ggx`] | |
-//! | θ_h, θ_d, φ_d | coordinates | | [`Rusinkiewicz`] |
-//! | | random walks on the microsurface | | [`walk::walk`], [`walk::walk_mirrors`] |
-//! | | many at once, AVX-512 | [`batch::specular`], [`batch::conductor_rgb`] | [`batch::specular_vectors`], [`batch::sample`] |
+//! | h | (l + v)/‖l + v‖ | | |
+//! | N·H | (N·L + N·V)/sqrt(2 + 2 L·V) | [`n_dot_h_from`] | |
+//! | V·H = L·H | sqrt((1 + L·V)/2) | [`v_dot_h_from`] | [`v_dot_h_and_rest`] |
+//! | θ_h, θ_d, φ_d | acos N·H, acos V·H, and l around h | | [`Rusinkiewicz`] |
 //!
-//! By name, with arguments, ranges, source and WGSL twin as data: [`terms()`], [`term()`].
+//! | | D: normals, 1/sr | from cosines | from vectors |
+//! |---|---|---|---|
+//! | GGX | α²/(π ((N·H)² (α² − 1) + 1)²) | [`d_ggx`] | [`Ggx::d_between`], [`d_ggx_world`] |
+//! | stretched | 1/(π α_x α_y ((h_x/α_x)² + (h_y/α_y)² + h_z²)²) | [`d_ggx_aniso`] | [`Ggx::d_between`] |
+//! | Beckmann | exp(−tan²θ/α²)/(π α² cos⁴θ) | [`d_beckmann`] | |
+//! | Blinn-Phong | cosⁿθ/(π α²), n = 2/α² − 2 | [`d_blinn_phong`] | |
+//! | α | roughness²; widened by the normal's variance: sqrt(α² + 2 σ²) | [`alpha_filtered`] | |
+//! | ∫ D dω | 1 + α² atanh(s)/s, s = sqrt(1 − α²); ∫ D cos θ dω = 1 | [`integral_d_ggx`] | |
+//!
+//! | | G: what is seen | from cosines | from vectors |
+//! |---|---|---|---|
+//! | Λ, GGX | (sqrt(1 + α² tan²θ) − 1)/2 | [`lambda_ggx`] | [`Ggx::lambda`] |
+//! | Λ, Beckmann | (erf a − 1)/2 + exp(−a²)/(2 a sqrt π), a = 1/(α tan θ) | [`lambda_beckmann`] | |
+//! | G₁ | 1/(1 + Λ) | [`g1_ggx`], [`g1_beckmann`], [`g1_beckmann_rational`] | [`Ggx::g1`] |
+//! | 1 − G₁ | Λ/(1 + Λ) | [`one_minus_g1_ggx`], [`one_minus_g1_beckmann`] | |
+//! | G₂ | 1/(1 + Λ(l) + Λ(v)) | [`g2_ggx`], [`g2_beckmann`] | |
+//! | G₂, separable | G₁(l) G₁(v) | [`g2_ggx_separable`] | |
+//! | V | G₂/(4 N·L N·V) | [`v_ggx`], [`v_ggx_separable`] | [`Ggx::visibility`] |
+//! | without roots | 0.5/lerp(2 N·L N·V, N·L + N·V, α) | [`v_ggx_hammon`], [`g2_ggx_hammon`] | |
+//! | sixteen older ones | as printed, with what is wrong | [`gsf`] | |
+//!
+//! | | F: reflectance | from cosines | from vectors |
+//! |---|---|---|---|
+//! | Schlick | f0 + (1 − f0)(1 − V·H)⁵ | [`f_schlick`], [`f_schlick_ior`], [`f_spherical_gaussian`] | [`Fresnel::Schlick`] |
+//! | with a dip | Schlick − a V·H (1 − V·H)⁶ | [`f_lazanyi`] | |
+//! | dielectric | ½ ((g − c)/(g + c))² (1 + ((c (g + c) − 1)/(c (g − c) + 1))²), c = V·H, g² = η² − 1 + c² | [`f_dielectric`], [`t_dielectric`] | [`Fresnel::Dielectric`] |
+//! | conductor | the same of a complex index n + ik | [`f_conductor`], [`t_conductor`] | [`Fresnel::Conductor`] |
+//! | f0 | ((n − 1)/(n + 1))²; lerp(0.04, colour, metallic) | [`f0_from_ior`], [`f0_from_metallic`] | |
+//!
+//! | | f: the whole, 1/sr | from cosines | from vectors |
+//! |---|---|---|---|
+//! | D V | F = 1 | [`specular_ggx`] | [`Ggx::eval`] |
+//! | D V F N·L | in three colours | | [`Specular::eval_cos`], [`specular_ggx_world`] |
+//! | Lambert | ρ/π | [`diffuse_lambert`] | |
+//! | rough diffuse | ρ/π times what roughness does to it | [`diffuse_oren_nayar`], [`diffuse_oren_nayar_full`], [`diffuse_eon`] | |
+//! | under a coat | what is let in, and out again | [`diffuse_disney`], [`diffuse_hammon`] | |
+//!
+//! | | lights drawn for a view | from vectors |
+//! |---|---|---|
+//! | p | G₁(v) D/(4 N·V), 1/sr | [`Ggx::sample`], [`Ggx::pdf`] |
+//! | w | f N·L/p = G₂/G₁(v) | [`Ggx::weight`], [`Specular::sample`] |
+//! | walks | from facet to facet until out again | [`walk::walk`], [`walk::walk_mirrors`] |
+//!
+//! | | integrals over the hemisphere | from cosines |
+//! |---|---|---|
+//! | E(v) | ∫ D V N·L dl | [`albedo_ggx`], [`AlbedoTable`], [`albedo_fits`] |
+//! | E_avg, F_avg | 2 ∫ E μ dμ; (1 + 20 f0)/21 | [`albedo_average_ggx`], [`f_schlick_average`] |
+//! | f_ms | (1 − E(l))(1 − E(v))/(π (1 − E_avg)), 1/sr | [`f_multi_kulla_conty`], [`multi_scattering_tint`] |
+//! | c | 1 + f0 (1 − E(v))/E(v) | [`compensation_turquin`] |
+//! | 1 | ∫ D G₁(v) max(v·m, 0) dm/N·V | [`integral_g1_d_ggx`] |
+//!
+//! Many at once, in loops for AVX2 and AVX-512: [`batch`]. By name, with arguments, ranges, source and WGSL
+//! twin as data: [`terms()`], [`term()`]. The papers: [`sources`].
 //!
 //! # A worked example
 //!
@@ -67,17 +112,28 @@
 //! G₂/(4 N·L N·V), `g2_*` the masking-shadowing function in [0, 1]. Vectors point away from the surface and
 //! have length 1; in the tangent frame z is along the normal.
 //!
+//! # How to read a page
+//!
+//! Each function's page has one line on what it is, the formula as the field writes it, and a list:
+//!
+//! - *Source*: the paper, and the number of the equation where it could be confirmed; [`sources`] has titles.
+//! - *Arguments*: their symbols and domains. Cosines and shares are pure numbers.
+//! - *Value*: its unit and range, limits and symmetries. *Reciprocal*: the same when l and v change places.
+//! - *Outside*: what arguments outside the domain give. Nothing panics, and NaN comes only from NaN (for
+//!   the batches inside their domain).
+//! - *Error*: the worst that a search has found, over α from 1e-4 to 1 and cosines down to 1e-6, against
+//!   the textbook form in 36 digits and more, in units of the last place of the value (ulp) in the
+//!   precision named. Arguments count as exact.
+//! - *Right and wrong*: where a model fails, and by how much.
+//!
+//! Below it stands why it is not computed as printed, where it is not.
+//!
 //! # Precision and instruction sets
 //!
 //! Every formula is written once, generic over [`Real`]: `f32` and `f64`, with elementary functions from
 //! `libm`, so that results do not depend on the platform. The [`batch`]es are compiled for three instruction
 //! sets and choose at run time, without flags and without nightly: the baseline of the architecture (SSE2 on
 //! x86-64), AVX2 with FMA, and AVX-512. Elsewhere (aarch64, WebAssembly) the baseline is all there is.
-//!
-//! *Error* in these pages is the worst that a search has found, over α from 1e-4 to 1 and cosines down to
-//! 1e-6, against the textbook form in 36 digits and more: in units of the last place of the value (ulp), of
-//! the precision named. Arguments count as exact. What a function gives outside its domain is under
-//! *Outside*; nothing panics, and NaN comes only from NaN (for the batches inside their domain).
 //!
 //! # Traps
 //!
@@ -109,6 +165,7 @@ pub mod integral;
 pub mod real;
 pub mod sampling;
 pub mod smith;
+pub mod sources;
 pub mod term;
 pub mod vector;
 mod vector_terms;

@@ -13,11 +13,12 @@ use crate::term::{N_DOT_L, N_DOT_V, ROUGHNESS, Term, V_DOT_H, entry};
 ///
 /// - *Source*: Stevens, part 3; of this form no other source was found.
 /// - *Arguments*: `n_dot_l` N·L in [0, 1]; `n_dot_v` N·V in [0, 1]; `roughness` in [0, 1].
+/// - *Value*: 0 to 1. **Not reciprocal**.
 /// - *Outside*: below or on the horizon 0; other arguments are brought into their range.
 /// - *Error*: 5.4 ulp in f32, 6.9 in f64.
-/// - *Right and wrong*: wrong. Not reciprocal (at roughness 0.5 and cosines 0.9 and 0.3: 0.666,
-///   and 0.288 the other way round), tends to N·L instead of 1 for a smooth surface, and reflects
-///   more than it receives (albedo 0.527, 0.373, 1.176).
+/// - *Right and wrong*: wrong. Light and view may not change places (at roughness 0.5, cosines 0.9
+///   and 0.3: 0.666, and 0.288 the other way round), tends to N·L instead of 1 for a smooth surface,
+///   and reflects more than it receives (albedo 0.527, 0.373, 1.176).
 #[inline(always)]
 pub fn gsf_modified_kelemen<R: Real>(n_dot_l: R, n_dot_v: R, roughness: R) -> R {
     above_horizon(n_dot_l, n_dot_v, |l, v| {
@@ -53,13 +54,14 @@ pub(super) const GSF_MODIFIED_KELEMEN: Term = entry!(
 /// - *Source*: Stevens, part 3; Kurt et al. 2010.
 /// - *Arguments*: `n_dot_l` N·L in [0, 1]; `n_dot_v` N·V in [0, 1]; `v_dot_h` V·H = L·H in [0, 1];
 ///   `roughness` in [0, 1].
-/// - *Outside*: at or below the horizon 0; `v_dot_h` = 0 gives +∞; other arguments are brought
-///   into their range.
+/// - *Value*: 0 to 1 up to roughness 0.5, above it to +∞. Reciprocal.
+/// - *Outside*: at or below the horizon 0; `v_dot_h` = 0 gives +∞; other arguments are brought into
+///   their range.
 /// - *Error*: 2.9 ulp in f32, 2.6 in f64.
 /// - *Right and wrong*: the paper's exponent is a parameter fitted to measurements, not a
-///   roughness. With roughness in its place there is no upper bound above 0.5 (μ^(1 − 2 roughness)
-///   in the mirror direction), and energy is gained: albedo 0.754, 1.312, 4.120, and 18.7 at
-///   roughness 1 and N·V = 0.05. Reciprocal.
+///   roughness. With roughness in its place there is no upper bound above 0.5 (μ^(1 − 2 roughness) in
+///   the mirror direction), and energy is gained: albedo 0.754, 1.312, 4.120, and 18.7 at roughness 1
+///   and N·V = 0.05.
 #[inline(always)]
 pub fn gsf_kurt<R: Real>(n_dot_l: R, n_dot_v: R, v_dot_h: R, roughness: R) -> R {
     above_horizon(n_dot_l, n_dot_v, |l, v| {
