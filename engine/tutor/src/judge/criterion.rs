@@ -6,6 +6,9 @@ use super::parse::Reading;
 use super::phrase::{Ears, Hit, PERHAPS, Phrase, STATED};
 use super::{Criterion, Finding, matching};
 
+/// From here on a phrase is said in so many words.
+const CLEAR: f64 = 0.97;
+
 impl Criterion {
     pub fn find(&self, reading: &Reading, understood: u128, deaf: &[(usize, usize)]) -> Finding {
         let ears = Ears {
@@ -72,16 +75,30 @@ impl Criterion {
             return Finding::Absent;
         }
         let score = evidence::likelihood(self.is_misconception, heard, log_odds);
-        let (perhaps, stated) = match self.is_misconception {
-            true => (0.4, 0.5),
-            false => (0.4, 0.6),
-        };
+        // What a phrase says in so many words is not taken for its contrary: it stays open.
+        let clear = hit.as_ref().is_some_and(|hit| hit.score >= CLEAR);
+        let (perhaps, stated) = self.bars(heard, clear);
         let hit = hit.or_else(|| self.strongest(reading));
         match hit.map(|hit| Hit { score, ..hit }) {
             Some(hit) if score >= stated => Finding::Stated(hit),
             Some(hit) if score >= perhaps => Finding::Perhaps(hit),
             _ => Finding::Absent,
         }
+    }
+
+    /// How likely it has to be to stay open, and to be stated.
+    fn bars(&self, heard: Heard, clear: bool) -> (f64, f64) {
+        let (perhaps, stated) = match (self.is_misconception, heard) {
+            // Without a phrase nobody is kept from passing, and nobody passes easily.
+            (true, Heard::Not) if self.blocking => (0.35, 2.0),
+            (true, Heard::Not) => (0.6, 0.8),
+            (false, Heard::Not) if self.required => (0.4, 0.85),
+            (true, Heard::Half) if self.blocking => (0.25, 0.6),
+            (true, Heard::Said) if self.blocking => (0.2, 0.5),
+            (true, _) => (0.4, 0.5),
+            (false, _) => (0.4, 0.6),
+        };
+        (if clear { 0.0 } else { perhaps }, stated)
     }
 
     /// The words that speak most for it.

@@ -44,7 +44,7 @@ use phrase::{Hit, Phrase, STATED};
 use text::Token;
 
 /// Changes whenever the same answer may get another verdict; kept in every log.
-pub const JUDGE_VERSION: &str = "5";
+pub const JUDGE_VERSION: &str = "6";
 
 /// What an answer is worth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -145,7 +145,7 @@ pub struct Judge {
 const ECHO: usize = 5;
 
 /// It is a pass only where it is at least so likely that all that it needs is as found.
-const SURE_OF_A_PASS: f64 = 0.6;
+const SURE_OF_A_PASS: f64 = 0.7;
 
 /// What was found on one criterion.
 #[derive(Clone, Debug, PartialEq)]
@@ -395,6 +395,14 @@ impl Judge {
     /// What an answer says, as it is weighed.
     fn features(&self, answer: &str) -> Features {
         evidence::features(lexicon(), &self.read(answer))
+    }
+
+    /// The words of an answer, as they are weighed.
+    fn words(&self, answer: &str) -> Vec<(evidence::Key, String)> {
+        let reading = self.read(answer);
+        evidence::words(&reading)
+            .map(|(stem, _)| (evidence::word_key(stem), stem.to_owned()))
+            .collect()
     }
 
     /// Tokens that are the question's own words, or ids of the rubric: nobody's statement.

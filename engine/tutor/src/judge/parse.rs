@@ -92,6 +92,8 @@ pub struct Reading {
     pub denied: Vec<bool>,
     /// For each token, whether a concept was heard in it.
     pub heard: Vec<bool>,
+    /// For each token, whether it is the question's own, or stands on the way to something else.
+    pub mute: Vec<bool>,
     /// Places that are the whole object, or wherever the highlight is.
     pub generic: Vec<Id>,
     /// For each clause, the statements of it (a range, as they come in order).
@@ -175,6 +177,7 @@ pub fn read(lexicon: &Lexicon, tokens: Vec<Token>, setting: &Setting, mute: &[bo
         on_the_way(&reading.tokens, &mut mute);
     }
     reading.void(lexicon, &mute);
+    reading.mute = mute;
     reading.index();
     reading
 }

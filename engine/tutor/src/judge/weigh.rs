@@ -32,6 +32,7 @@ pub fn weigh(rubric: &Rubric, marks: &[Marked]) -> String {
         .iter()
         .map(|it| judge.features(&it.text).iter().collect())
         .collect();
+    let words: BTreeMap<Key, String> = mine.iter().flat_map(|it| judge.words(&it.text)).collect();
     let mut out = String::new();
     for criterion in rubric.criteria() {
         let mut rows: Vec<(&[(Key, f64)], bool)> = mine
@@ -55,7 +56,7 @@ pub fn weigh(rubric: &Rubric, marks: &[Marked]) -> String {
         let _ = writeln!(out, "{}", criterion.says);
         let mut line = String::new();
         for (key, weight) in weights {
-            let entry = format!("{}:{weight:.2}", name(lexicon(), key));
+            let entry = format!("{}:{weight:.2}", name(lexicon(), key, &words));
             if !line.is_empty() && line.len() + 1 + entry.len() > 100 {
                 let _ = writeln!(out, "{line}");
                 line.clear();
