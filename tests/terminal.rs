@@ -284,3 +284,47 @@ fn a_lesson_open_elsewhere_is_not_written_twice() {
         .count();
     assert_eq!(logs, 2);
 }
+
+/// Leaves out everything up to the first number that is asked for, in plain text, and leaves.
+fn go_to_exercise(home: &std::path::Path) {
+    let folder = home.join("p").display().to_string();
+    let args = ["learn", "smith-g2", "--plain", "--seed", "7", "--progress"];
+    let args = [&args[..], &[&folder]].concat();
+    let text = common::stdout(&common::run_with(home, &args, &":skip\n".repeat(4)));
+    assert!(text.contains("## Exercises 2 of"), "{text}");
+}
+
+/// The footer.
+fn last_line(screen: &str) -> &str {
+    screen.lines().last().unwrap_or_default()
+}
+
+#[test]
+fn the_footer_says_what_the_keys_do_here() {
+    let home = tempfile::tempdir().expect("a folder");
+    let mut terminal = learn(home.path(), (80, 24));
+    terminal.wait_for("Enter on");
+    assert!(!terminal.text().contains("skip"), "{}", terminal.text());
+    terminal.send("\u{3}");
+    terminal.wait();
+    go_to_exercise(home.path());
+    let mut terminal = learn(home.path(), (80, 24));
+    terminal.wait_for("Ctrl-G skip this exercise");
+    terminal.send("0.5");
+    terminal.wait_for("Enter answer");
+    terminal.send("\u{7f}\u{7f}\u{7f}\u{14}");
+    terminal.wait_for("Ctrl-T second hint");
+    // The answer is shown, and left as it is.
+    terminal.send("\u{14}\u{14}\r");
+    terminal.wait_for("Left as it is.");
+    terminal.wait_for("Enter on");
+    let footer = last_line(&terminal.text()).to_owned();
+    assert!(!footer.contains("skip"), "{footer}");
+    terminal.send("\r");
+    terminal.wait_for("Exercises 3/");
+    // One key from within a field, and a way back.
+    terminal.send("\u{7}");
+    terminal.wait_for("Exercises 4/");
+    terminal.send("\u{3}");
+    assert_eq!(terminal.wait(), 0);
+}

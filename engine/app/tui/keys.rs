@@ -105,6 +105,7 @@ fn of_key(key: KeyEvent, focus: Focus) -> Action {
         match key.code {
             KeyCode::Char('c') => return Action::QuitAll,
             KeyCode::Char('t') => return Action::Hint,
+            KeyCode::Char('g') => return Action::Skip,
             KeyCode::Char('l') => return Action::Repaint,
             _ => {}
         }

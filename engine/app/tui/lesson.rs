@@ -168,6 +168,11 @@ impl LessonScreen {
         self.scroll < self.last_scroll()
     }
 
+    /// Whether anything of the page is out of view.
+    pub fn scrolls(&self) -> bool {
+        self.last_scroll() > 0
+    }
+
     /// The picture of the lesson that is in view, the first of several.
     pub fn picture_in_view(&self) -> Option<&Subject> {
         self.page.picture_in(self.scroll..self.scroll + self.window)

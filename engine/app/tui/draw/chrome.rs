@@ -22,8 +22,9 @@ pub fn footer(frame: &mut Frame, area: Rect, keys: &[Key], right: &str, palette:
     for (name, does) in keys {
         let gap = if line.spans.is_empty() { "" } else { "  " };
         let width = gap.width() + name.width() + 1 + does.width();
+        // A shorter one may still have room.
         if line.width() + width > room {
-            break;
+            continue;
         }
         line.push_span(Span::raw(gap));
         line.push_span(Span::styled(*name, palette.key()));

@@ -16,7 +16,7 @@ const KEYS: [(&str, &str); 19] = [
     ("Tab", "between page, field and button"),
     ("Esc", "leave a field, so that single keys are commands"),
     ("t, Ctrl-T", "a hint; the third one is the answer"),
-    ("s", "skip this"),
+    ("s, Ctrl-G", "skip this"),
     ("i", "the picture in view under the arrow keys"),
     ("Ctrl-S", "hand in an explanation; run a shader"),
     ("Ctrl-O", "a shader in your own editor ($EDITOR)"),

@@ -4,15 +4,14 @@ use ratatui::Frame;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use tutor::prose::Tone;
-use tutor::view::{Input, Progress, Saving, View};
+use tutor::view::{Progress, Saving, View};
 use unicode_width::UnicodeWidthStr as _;
 
-use super::chrome::{Key, at_right, footer, key, rule};
+use super::chrome::{at_right, footer, rule};
 use super::input;
+use super::keys::keys;
 use super::style::Palette;
 use crate::text;
-use crate::tui::field::Field;
-use crate::tui::keys::Focus;
 use crate::tui::lesson::LessonScreen;
 use crate::tui::pictures::Pictures;
 
@@ -131,7 +130,13 @@ pub fn draw(frame: &mut Frame, screen: &LessonScreen, pictures: &Pictures, palet
         (false, true) => "▲ more above",
         (false, false) => "",
     };
-    footer(frame, areas.footer, &keys(screen), right, palette);
+    footer(
+        frame,
+        areas.footer,
+        &keys(screen, areas.footer.width),
+        right,
+        palette,
+    );
 }
 
 /// Title and whether all is saved; the stages or their names; a rule.
@@ -262,151 +267,6 @@ fn notes(screen: &LessonScreen, width: usize) -> Vec<(Tone, String)> {
         );
     }
     notes
-}
-
-/// The keys that work here.
-fn keys(screen: &LessonScreen) -> Vec<Key> {
-    let view = screen.view();
-    let mut keys: Vec<Key> = Vec::new();
-    let next = || {
-        if view.next_label.is_empty() {
-            "on"
-        } else {
-            view.next_label.as_str()
-        }
-    };
-    match (screen.focus, &screen.field) {
-        (Focus::Line, _) => {
-            let typed = screen
-                .field
-                .text()
-                .is_some_and(|text| !text.trim().is_empty());
-            if typed || view.can.next {
-                keys.push(key("Enter", if typed { "answer" } else { next() }));
-            }
-            if view.can.hint.is_some() {
-                keys.push(key("Ctrl-T", hint_label(view)));
-            }
-            if let Input::Reply { .. } = view.input {
-                keys.push(key("Esc s", &view.skip_label));
-            } else if view.can.skip {
-                keys.push(key("Esc s", "skip"));
-            }
-            let rest = [
-                ("Esc", "leave field"),
-                ("F1", "help"),
-                ("Ctrl-C", "quit"),
-                ("↑↓", "scroll"),
-            ];
-            return with_general(keys, &rest);
-        }
-        (Focus::Editor, Field::Code(_)) => {
-            keys.push(key("Ctrl-S", "run"));
-            keys.push(key("Ctrl-O", "your editor"));
-            if view.can.hint.is_some() {
-                keys.push(key("Ctrl-T", hint_label(view)));
-            }
-            let rest = [
-                ("Esc", "leave field"),
-                ("F1", "help"),
-                ("Ctrl-C", "quit"),
-                ("PgUp/PgDn", "scroll"),
-            ];
-            return with_general(keys, &rest);
-        }
-        (Focus::Place, _) => {
-            keys.push(key("↑↓←→", "move (Shift: far)"));
-            keys.push(key("Enter", "look here"));
-            if view.can.next {
-                keys.push(key("Esc Enter", next()));
-            }
-        }
-        (Focus::Editor, _) => {
-            keys.push(key("Ctrl-S", "hand in"));
-            if view.can.skip {
-                keys.push(key("Esc s", "skip"));
-            }
-            let rest = [
-                ("Esc", "leave field"),
-                ("F1", "help"),
-                ("Ctrl-C", "quit"),
-                ("PgUp/PgDn", "scroll"),
-                ("Tab", "to the button"),
-            ];
-            return with_general(keys, &rest);
-        }
-        (Focus::Button, _) => {
-            let does = match screen.field {
-                Field::Code(_) => "run",
-                _ => "hand in",
-            };
-            keys.push(key("Enter", does));
-            keys.push(key("Tab", "to the page"));
-        }
-        (Focus::Options, Field::Choice { .. }) => {
-            keys.push(key("↑↓", "choose"));
-            keys.push(key("Enter", "answer"));
-            if view.can.next {
-                keys.push(key("Esc Enter", next()));
-            }
-        }
-        (Focus::Options, Field::Order(order)) => {
-            keys.push(key("↑↓", if order.grabbed { "move it" } else { "choose" }));
-            keys.push(key("Space", if order.grabbed { "drop" } else { "grab" }));
-            keys.push(key("Enter", "hand in"));
-            if view.can.next {
-                keys.push(key("Esc Enter", next()));
-            }
-        }
-        (Focus::Options, _) => {
-            keys.push(key("y/n", "said it or not"));
-            keys.push(key("↑↓", "choose"));
-            keys.push(key("Enter", "done"));
-        }
-        _ => {
-            if screen.has_more_below() {
-                keys.push(key("Enter", "read on"));
-            } else if view.can.next {
-                keys.push(key("Enter", next()));
-            }
-            if view.input != Input::None {
-                keys.push(key("Tab", "to the field"));
-            }
-        }
-    }
-    if screen.picture_in_view().is_some() {
-        keys.push(key("i", "turn the picture"));
-    }
-    if view.can.back {
-        keys.push(key("←", "back"));
-    }
-    if view.can.hint.is_some() {
-        keys.push(key("t", hint_label(view)));
-    }
-    if view.can.skip {
-        keys.push((
-            "s",
-            if view.skip_label.is_empty() {
-                "skip".into()
-            } else {
-                view.skip_label.clone()
-            },
-        ));
-    }
-    with_general(keys, &[("q", "quit"), ("?", "help")])
-}
-
-fn with_general(mut keys: Vec<Key>, general: &[(&'static str, &str)]) -> Vec<Key> {
-    keys.extend(general.iter().map(|(name, does)| key(name, does)));
-    keys
-}
-
-fn hint_label(view: &View) -> &'static str {
-    match view.can.hint {
-        Some(1) => "hint",
-        Some(2) => "second hint",
-        _ => "show the answer",
-    }
 }
 
 /// The beginning of a text that fits into `width` columns.

@@ -3,6 +3,7 @@
 pub mod chrome;
 pub mod help;
 pub mod input;
+pub mod keys;
 pub mod lesson;
 pub mod page;
 pub mod picker;

@@ -257,20 +257,40 @@ impl Session {
             }
             _ => {}
         }
-        let to = match here {
-            Screen::Result => return Decided::note("Nothing is left to skip."),
-            Screen::Why | Screen::Step(_) | Screen::Worked => self.after_stage(here),
-            Screen::Explain { .. } => self.after_item(here),
-            Screen::Faded(_) | Screen::Practice(_) | Screen::Retest(_) | Screen::Reteach { .. } => {
-                self.after(here)
-            }
-        };
-        let mut decided = self.move_to(to);
-        let left_out = Event::Skip {
-            screen: here.to_string(),
-        };
-        decided.events.insert(0, left_out);
+        if *here == Screen::Result {
+            return Decided::note("Nothing is left to skip.");
+        }
+        let mut decided = self.move_to(self.skip_target());
+        if self.may_skip() {
+            let left_out = Event::Skip {
+                screen: here.to_string(),
+            };
+            decided.events.insert(0, left_out);
+        }
         decided
+    }
+
+    /// The screen after what would be left out.
+    fn skip_target(&self) -> Option<Screen> {
+        match self.here() {
+            here @ (Screen::Why | Screen::Step(_) | Screen::Worked) => self.after_stage(here),
+            here @ Screen::Explain { .. } => self.after_item(here),
+            here => self.after(here),
+        }
+    }
+
+    /// Whether skipping is more than going on: something is open here, or more than this screen
+    /// would be left out.
+    pub(super) fn may_skip(&self) -> bool {
+        match self.open() {
+            Open::Nothing => self.skip_target() != self.after(self.here()),
+            Open::Line
+            | Open::Step(..)
+            | Open::Text(..)
+            | Open::Opinion
+            | Open::Reply(..)
+            | Open::Marks(..) => true,
+        }
     }
 
     fn hint(&self) -> Decided {

@@ -268,7 +268,7 @@ impl Session {
         Can {
             next,
             back: self.cursor > 0,
-            skip: *self.here() != Screen::Result,
+            skip: self.may_skip(),
             hint: self.next_hint(),
         }
     }
@@ -297,20 +297,19 @@ impl Session {
             Open::Opinion => "do not wait",
             Open::Reply(..) => "no more questions",
             Open::Marks(..) => "leave it open",
-            Open::Nothing | Open::Line | Open::Step(..) | Open::Text(..) => skip_label(screen),
+            Open::Nothing if !self.may_skip() => "",
+            Open::Nothing | Open::Line | Open::Step(..) | Open::Text(..) => match screen {
+                Screen::Why | Screen::Step(_) => "skip the walkthrough",
+                Screen::Worked => "skip the worked example",
+                Screen::Faded(_) => "skip this round",
+                Screen::Practice(_) | Screen::Retest(_) => "skip this exercise",
+                Screen::Explain { .. } if matches!(self.open(), Open::Nothing) => {
+                    "skip the second try"
+                }
+                Screen::Explain { .. } => "skip this question",
+                Screen::Reteach { .. } => "skip this angle",
+                Screen::Result => "",
+            },
         }
-    }
-}
-
-fn skip_label(screen: &Screen) -> &'static str {
-    match screen {
-        Screen::Why => "skip to the walkthrough",
-        Screen::Step(_) => "skip the walkthrough",
-        Screen::Worked => "skip the worked example",
-        Screen::Faded(_) => "skip this round",
-        Screen::Practice(_) | Screen::Retest(_) => "skip this exercise",
-        Screen::Explain { .. } => "skip this question",
-        Screen::Reteach { .. } => "skip this angle",
-        Screen::Result => "",
     }
 }

@@ -61,6 +61,55 @@ fn skipping_leaves_out_the_stage_or_the_item() {
     leads(&mut s, Msg::Next, "worked", "next line");
 }
 
+/// What skipping is called where it is more than going on.
+#[track_caller]
+fn check_skip(session: &Session, key: &str, label: &str) {
+    let view = session.screen();
+    let found = (view.key.as_str(), view.can.skip, view.skip_label.as_str());
+    assert_eq!(found, (key, !label.is_empty(), label));
+}
+
+#[test]
+fn skipping_is_offered_where_something_would_be_left_out() {
+    let mut s = begin();
+    check_skip(&s, "why", "");
+    for (msg, key, label) in [
+        (Msg::Next, "step:1", "skip the walkthrough"),
+        (Msg::Next, "step:2", ""),
+        (Msg::Next, "worked", "skip the worked example"),
+        (Msg::Next, "worked", "skip the worked example"),
+        (Msg::Next, "faded:1", "skip this round"),
+        (Msg::Skip, "faded:2", "skip this round"),
+        (Msg::Skip, "practice:small/area", "skip this exercise"),
+        (Msg::Skip, "practice:small/which", "skip this exercise"),
+    ] {
+        send(&mut s, [msg]);
+        check_skip(&s, key, label);
+    }
+    let Input::Choice { options } = s.screen().input.clone() else {
+        panic!("a choice is asked for");
+    };
+    let right = options.iter().position(|it| it == "a number times itself");
+    let right = right.expect("it is one of them") + 1;
+    send(&mut s, [answer(&right.to_string())]);
+    check_skip(&s, "practice:small/which", "");
+    let saved = send(&mut s, [Msg::Skip]);
+    assert!(
+        matches!(&saved[..], [Event::Next { .. }]),
+        "what is done is not left out: {saved:?}"
+    );
+    walk_to(&mut s, "explain:small/explain:1");
+    check_skip(&s, "explain:small/explain:1", "skip this question");
+    send(&mut s, [answer("it doubles the number")]);
+    check_skip(&s, "explain:small/explain:1", "skip the second try");
+    walk_to(&mut s, "explain:small/explain:2");
+    check_skip(&s, "explain:small/explain:2", "skip this question");
+    send(&mut s, [answer(super::explain::GOOD)]);
+    check_skip(&s, "explain:small/explain:2", "");
+    walk_to(&mut s, "result");
+    check_skip(&s, "result", "");
+}
+
 #[test]
 fn going_on_wants_an_answer_first() {
     let mut s = begin();
