@@ -328,3 +328,24 @@ fn the_footer_says_what_the_keys_do_here() {
     terminal.send("\u{3}");
     assert_eq!(terminal.wait(), 0);
 }
+
+#[test]
+fn keys_typed_while_the_terminal_is_asked_are_not_lost() {
+    let home = tempfile::tempdir().expect("a folder");
+    let mut terminal = learn(home.path(), (80, 24));
+    // No frame waits for the answer; a learner does not wait either.
+    terminal.wait_for("Enter on");
+    let heading = |screen: &str| screen.lines().nth(1).map(str::to_owned);
+    while !terminal.text().contains("Where it shows") {
+        let here = heading(&terminal.text());
+        terminal.send("G\r");
+        terminal.wait_until("another page", |screen| heading(screen) != here);
+    }
+    common::wait_for("the question", || {
+        terminal.raw().contains("\u{1b}[16t").then_some(())
+    });
+    terminal.send("G\u{1b}[6;18;9t\r\u{1b}[?62;22c");
+    terminal.wait_until("the next page", |screen| !screen.contains("Where it shows"));
+    terminal.send("\u{3}");
+    assert_eq!(terminal.wait(), 0);
+}

@@ -85,7 +85,8 @@ fn terminal() -> Option<Terminal> {
     let (columns, rows) = crossterm::terminal::size().ok()?;
     // The answers come as keys would: unseen, and without waiting for Enter.
     crossterm::terminal::enable_raw_mode().ok()?;
-    let picker = probe::picker();
+    // Nobody is asked anything here, so what was typed is for the shell, which cannot have it.
+    let (picker, _typed) = probe::picker();
     crossterm::terminal::disable_raw_mode().ok()?;
     Some(Terminal {
         columns,

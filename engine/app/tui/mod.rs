@@ -8,6 +8,7 @@ pub mod dials;
 pub mod draw;
 pub mod field;
 pub mod guard;
+pub mod keyboard;
 pub mod keys;
 pub mod lesson;
 pub mod picker;
@@ -21,14 +22,15 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use crossterm::event::{DisableMouseCapture, EnableMouseCapture};
+use crossterm::execute;
 use crossterm::terminal::{Clear, ClearType};
-use crossterm::{event, execute};
 use ratatui::Frame;
 use tutor::Lesson;
 use tutor::view::Stage;
 
 use self::draw::style::Palette;
 use self::guard::Guard;
+use self::keyboard::Keyboard;
 use self::keys::{Action, Focus};
 use self::lesson::{Flow, LessonScreen};
 use self::picker::{Chosen, Picker};
@@ -58,6 +60,7 @@ struct App<'a> {
     /// How far the help is scrolled, while it lies over the screen.
     help: Option<usize>,
     pictures: Pictures,
+    keyboard: Keyboard,
     palette: Palette,
     /// Whether leaving a lesson leads to the list.
     from_list: bool,
@@ -95,6 +98,7 @@ pub fn run(
         screen,
         help: None,
         pictures: Pictures::new(palette.has_colours()),
+        keyboard: Keyboard::default(),
         palette,
         from_list,
     };
@@ -127,14 +131,16 @@ impl App<'_> {
                 }
                 // After the first frame, so that it need not wait for the terminal's answer.
                 self.want_pictures();
+                self.keyboard.put_back(&self.pictures.typed());
                 #[cfg(debug_assertions)]
                 panic_where_a_test_asks();
             }
             redraw = false;
-            if event::poll(self.wakes_in()).map_err(broken)? {
+            if self.keyboard.poll(self.wakes_in()).map_err(broken)? {
                 // All keys that wait are one step: a held key never runs ahead of the screen.
                 loop {
-                    let action = keys::action(event::read().map_err(broken)?, self.focus());
+                    let event = self.keyboard.read().map_err(broken)?;
+                    let action = keys::action(event, self.focus());
                     let mut repaint = action == Action::Repaint;
                     redraw |= action != Action::Nothing;
                     match self.act(action)? {
@@ -158,7 +164,7 @@ impl App<'_> {
                         execute!(stdout(), Clear(ClearType::All)).map_err(broken)?;
                         terminal.swap_buffers();
                     }
-                    if !event::poll(Duration::ZERO).map_err(broken)? {
+                    if !self.keyboard.poll(Duration::ZERO).map_err(broken)? {
                         break;
                     }
                 }
@@ -271,7 +277,11 @@ impl App<'_> {
             .ok_or_else(|| "the lesson has no such picture".to_owned())
             .and_then(|fingerprint| Play::new(&fingerprint));
         match play {
-            Ok(mut play) => play.run(terminal, &self.pictures.picker(), self.palette),
+            Ok(mut play) => {
+                let picker = self.pictures.picker();
+                self.keyboard.put_back(&self.pictures.typed());
+                play.run(terminal, &mut self.keyboard, &picker, self.palette)
+            }
             Err(why) => {
                 lesson.greeting = vec![why];
                 Ok(Left::Back)

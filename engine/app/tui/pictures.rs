@@ -60,6 +60,8 @@ pub struct Pictures {
     jobs: HashMap<Key, Job>,
     finished: Receiver<(Key, Result<Drawn, String>)>,
     finish: Sender<(Key, Result<Drawn, String>)>,
+    /// What was typed while the terminal was asked what it can show.
+    typed: Vec<u8>,
 }
 
 impl Pictures {
@@ -71,6 +73,7 @@ impl Pictures {
             jobs: HashMap::new(),
             finished,
             finish,
+            typed: Vec::new(),
         }
     }
 }
@@ -106,7 +109,7 @@ impl Pictures {
         });
         for key in wanted {
             if !self.jobs.contains_key(&key) {
-                let picker = self.picker.get_or_insert_with(probe::picker).clone();
+                let picker = self.picker();
                 let finish = self.finish.clone();
                 let job = start(
                     key.clone(),
@@ -122,7 +125,18 @@ impl Pictures {
 
     /// What the terminal can show; asks it where it was not asked yet.
     pub fn picker(&mut self) -> Picker {
-        self.picker.get_or_insert_with(probe::picker).clone()
+        if let Some(picker) = &self.picker {
+            return picker.clone();
+        }
+        let (picker, typed) = probe::picker();
+        self.typed.extend(typed);
+        self.picker = Some(picker.clone());
+        picker
+    }
+
+    /// What was typed while the terminal was asked.
+    pub fn typed(&mut self) -> Vec<u8> {
+        std::mem::take(&mut self.typed)
     }
 
     /// Takes what was finished. True where the screen changed.

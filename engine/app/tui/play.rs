@@ -7,7 +7,7 @@
 use std::io::{self, stdout};
 use std::time::Duration;
 
-use crossterm::event::{self, Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
+use crossterm::event::{Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 use crossterm::execute;
 use crossterm::terminal::{Clear, ClearType};
 use ratatui::layout::{Rect, Size};
@@ -19,6 +19,7 @@ use super::draw::play::{Areas, draw};
 use super::draw::style::Palette;
 use super::draw::{has_room, too_small};
 use super::guard::{self, Guard, Screen};
+use super::keyboard::Keyboard;
 use super::pictures::{Drawn, paint_again};
 use super::probe;
 use crate::exit::{Done, Failure, plain_reason};
@@ -173,6 +174,7 @@ impl Play {
     pub fn run(
         &mut self,
         terminal: &mut Screen,
+        keyboard: &mut Keyboard,
         picker: &Picker,
         palette: Palette,
     ) -> io::Result<Left> {
@@ -187,23 +189,23 @@ impl Play {
                 true => draw(frame, self, room_for(picker), palette),
                 false => too_small(frame),
             })?;
-            if let Some(left) = self.keys(terminal)? {
+            if let Some(left) = self.keys(terminal, keyboard)? {
                 return Ok(left);
             }
         }
     }
 
     /// Waits for keys, and takes all that came.
-    fn keys(&mut self, terminal: &mut Screen) -> io::Result<Option<Left>> {
+    fn keys(&mut self, terminal: &mut Screen, keyboard: &mut Keyboard) -> io::Result<Option<Left>> {
         let mut changed = false;
         while !changed {
             if guard::signalled().is_some() {
                 return Ok(Some(Left::QuitAll));
             }
             let mut wait = IDLE;
-            while event::poll(wait)? {
+            while keyboard.poll(wait)? {
                 wait = Duration::ZERO;
-                let pressed = match event::read()? {
+                let pressed = match keyboard.read()? {
                     Event::Key(pressed) if pressed.kind != KeyEventKind::Release => pressed,
                     Event::Resize(..) => {
                         changed = true;
@@ -246,8 +248,10 @@ pub fn alone(mut play: Play) -> Result<Done, Failure> {
         Failure::unusable(format!("the terminal gave up: {}", plain_reason(&error)))
     };
     let (_guard, mut terminal) = Guard::take().map_err(broken)?;
-    let picker = probe::picker();
-    let left = play.run(&mut terminal, &picker, Palette::from_env());
+    let (picker, typed) = probe::picker();
+    let mut keyboard = Keyboard::default();
+    keyboard.put_back(&typed);
+    let left = play.run(&mut terminal, &mut keyboard, &picker, Palette::from_env());
     left.map(|_| Done::Fine).map_err(broken)
 }
 

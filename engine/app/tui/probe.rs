@@ -1,10 +1,13 @@
 //! Which kind of picture the terminal can show. Asked only when a picture is wanted, with a
-//! time limit, by the thread that also reads keys: no reader is left behind to eat them.
+//! time limit, by the thread that also reads keys: no reader is left behind to eat them. What is
+//! typed meanwhile comes back with the answer.
 
 use std::env;
 
 use ratatui_image::FontSize;
 use ratatui_image::picker::{Picker, ProtocolType};
+
+use super::keyboard::is_cut_short;
 
 /// What the terminal answered.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -15,20 +18,21 @@ struct Answer {
 }
 
 /// Asks the terminal. Half-blocks where it says nothing; `LOBE_PICTURES` (`kitty`, `iterm2`,
-/// `sixel`, `halfblocks`) overrides what it says.
-pub fn picker() -> Picker {
+/// `sixel`, `halfblocks`) overrides what it says. Also what was typed before it answered.
+pub fn picker() -> (Picker, Vec<u8>) {
     let forced = env::var("LOBE_PICTURES")
         .ok()
         .and_then(|name| protocol(&name));
     if forced == Some(ProtocolType::Halfblocks) {
-        // They need nothing to be known; and a key pressed while asking would be lost.
-        return Picker::halfblocks();
+        // They need nothing to be known.
+        return (Picker::halfblocks(), Vec::new());
     }
-    let answer = if cfg!(unix) {
-        parse(&asked())
-    } else {
-        Answer::default()
-    };
+    let came = asked();
+    let typed = typed(&came);
+    (of_answer(parse(&came), forced), typed)
+}
+
+fn of_answer(answer: Answer, forced: Option<ProtocolType>) -> Picker {
     let cell = answer.cell.or_else(cell_from_window);
     let Some((width, height)) = cell else {
         // Without the size of a cell in pixels only half-blocks come out right.
@@ -134,6 +138,8 @@ fn asked() -> Vec<u8> {
 
     const QUESTIONS: &[u8] = b"\x1b_Gi=31,s=1,v=1,a=q,t=d,f=24;AAAA\x1b\\\x1b[16t\x1b[c";
     const LIMIT: Duration = Duration::from_millis(250);
+    /// The rest of a key that has begun is on its way.
+    const REST_OF_A_KEY: Duration = Duration::from_millis(20);
 
     let mut answer = Vec::new();
     let mut out = std::io::stdout();
@@ -143,8 +149,12 @@ fn asked() -> Vec<u8> {
     let until = Instant::now() + LIMIT;
     let stdin = rustix::stdio::stdin();
     let mut chunk = [0u8; 256];
-    while !complete(&answer) {
-        let left = until.saturating_duration_since(Instant::now());
+    loop {
+        let left = match complete(&answer) {
+            false => until.saturating_duration_since(Instant::now()),
+            true if is_cut_short(&typed(&answer)) => REST_OF_A_KEY,
+            true => break,
+        };
         let Ok(timeout) = Timespec::try_from(left) else {
             break;
         };
@@ -163,6 +173,49 @@ fn asked() -> Vec<u8> {
 #[cfg(not(unix))]
 fn asked() -> Vec<u8> {
     Vec::new()
+}
+
+/// Where each answer begins and ends: of kitty `ESC _ … ESC \`, of others `ESC [ 6 ; … t` and
+/// `ESC [ ? … c`.
+fn answers(came: &[u8]) -> Vec<std::ops::Range<usize>> {
+    const FORMS: [(&[u8], &[u8]); 3] = [
+        (b"\x1b_G", b"\x1b\\"),
+        (b"\x1b[6;", b"t"),
+        (b"\x1b[?", b"c"),
+    ];
+    let mut found = Vec::new();
+    let mut at = 0;
+    while at < came.len() {
+        let end = FORMS.iter().find_map(|(begins, ends)| {
+            let rest = came[at..].strip_prefix(*begins)?;
+            let length = rest.windows(ends.len()).position(|it| it == *ends)?;
+            // Shift-PageDown begins as the size of a cell does.
+            let is_one = !rest[..length]
+                .iter()
+                .any(|byte| matches!(byte, 0x1b | b'~'));
+            is_one.then_some(at + begins.len() + length + ends.len())
+        });
+        match end {
+            Some(end) => {
+                found.push(at..end);
+                at = end;
+            }
+            None => at += 1,
+        }
+    }
+    found
+}
+
+/// What came that is no answer.
+fn typed(came: &[u8]) -> Vec<u8> {
+    let mut typed = Vec::new();
+    let mut at = 0;
+    for answer in answers(came) {
+        typed.extend_from_slice(&came[at..answer.start]);
+        at = answer.end;
+    }
+    typed.extend_from_slice(&came[at..]);
+    typed
 }
 
 /// Whether the last question was answered.
@@ -193,5 +246,23 @@ mod tests {
         );
         check("\x1b[6;0;0t\x1b[?64;1;2c", false, false, None);
         check("q\x1b[?4c", false, false, None);
+    }
+
+    #[track_caller]
+    fn check_typed(came: &str, expected: &str) {
+        let typed = typed(came.as_bytes());
+        assert_eq!(String::from_utf8_lossy(&typed), expected, "{came:?}");
+    }
+
+    #[test]
+    fn what_is_no_answer_was_typed() {
+        check_typed("", "");
+        check_typed("0.5\r", "0.5\r");
+        check_typed("\x1b[?62;22c", "");
+        check_typed("a\x1b_Gi=31;OK\x1b\\b\x1b[6;20;10tc\x1b[?62cd", "abcd");
+        check_typed("\x1b[6~\x1b[A\x1b[?62;4c\x1b", "\x1b[6~\x1b[A\x1b");
+        check_typed("\x1b[6;2~t\x1b[?62c", "\x1b[6;2~t");
+        // Cut off by the time limit: better a stray key than a lost one.
+        check_typed("x\x1b[?62", "x\x1b[?62");
     }
 }
