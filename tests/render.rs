@@ -67,6 +67,48 @@ fn a_picture_is_drawn_once() {
     assert_eq!(redrawn, 1, "{narrow:?}");
 }
 
+/// The files that a name stands for, or what is said of it.
+#[track_caller]
+fn check_named(name: &str, expected: Result<&[&str], &str>) {
+    let home = tempfile::tempdir().expect("a folder");
+    let out = home.path().join("out");
+    let args = ["render", name, "--size", "64", "--backend", "cpu", "--out"];
+    let args = args.into_iter().chain(out.to_str());
+    let output = run_with(home.path(), &args.collect::<Vec<_>>(), "");
+    match expected {
+        Ok(files) => {
+            assert!(output.status.success(), "{}", stderr(&output));
+            let entries = fs::read_dir(&out).expect("a folder of pictures");
+            let mut found: Vec<_> = entries
+                .map(|entry| entry.expect("a file").file_name())
+                .collect();
+            found.sort();
+            assert_eq!(found, files);
+        }
+        Err(says) => {
+            assert_eq!(output.status.code(), Some(2));
+            assert_eq!(stderr(&output).lines().count(), 1);
+            assert!(stderr(&output).contains(says), "{}", stderr(&output));
+            assert!(!out.exists(), "nothing is drawn");
+        }
+    }
+}
+
+#[test]
+fn one_picture_is_drawn_alone() {
+    let one = "smith-g2-double-division.png";
+    check_named("smith-g2/double-division", Ok(&[one]));
+    check_named("2/double-division", Ok(&[one]));
+    let plot = ["smith-g2-ratio.png", "smith-g2-ratio.svg"];
+    check_named("smith-g2/ratio", Ok(&plot));
+    check_named("smith-g2/furnace", Ok(&["smith-g2-furnace.png"]));
+    check_named(
+        "ggx-d/square",
+        Err("ggx-d has no picture `square`: it has square-forgotten, two-balls, tails,"),
+    );
+    check_named("smth-g2/ratio", Err("did you mean `smith-g2`?"));
+}
+
 #[test]
 fn a_broken_or_foreign_cache_is_none() {
     let home = tempfile::tempdir().expect("a folder");

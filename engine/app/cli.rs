@@ -325,8 +325,8 @@ pub enum Values {
 
 #[derive(Debug, Args)]
 pub struct Render {
-    /// Ids or numbers of lessons (else all)
-    #[arg(value_name = "LESSON")]
+    /// Ids or numbers of lessons, or single pictures: smith-g2/double-division (else all)
+    #[arg(value_name = "LESSON[/PICTURE]")]
     pub names: Vec<String>,
     /// Folder to write to (else renders/gallery where it exists, else ./lobe-pictures)
     #[arg(long, value_name = "DIR")]

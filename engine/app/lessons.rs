@@ -29,24 +29,60 @@ pub struct Shelf {
     pub files: Vec<File>,
 }
 
+/// A lesson file that has not been read yet.
+enum Source {
+    Path(PathBuf),
+    BuiltIn(&'static str, &'static str),
+}
+
+impl Source {
+    fn name(&self) -> String {
+        match self {
+            Self::Path(path) => path.display().to_string(),
+            Self::BuiltIn(name, _) => format!("lessons/{name}"),
+        }
+    }
+
+    fn read(&self) -> File {
+        let path = match self {
+            Self::BuiltIn(_, text) => return File::read(self.name(), (*text).to_owned()),
+            Self::Path(path) => path,
+        };
+        match fs::read(path) {
+            Ok(bytes) => File::from_bytes(path, bytes),
+            // One file that cannot be read must not close the others.
+            Err(error) => {
+                let why = format!("It cannot be read: {}.", plain_reason(&error));
+                let help = "Move it out of the folder of lessons, or make it readable.";
+                File::unreadable(self.name(), String::new(), Place::default(), why, help)
+            }
+        }
+    }
+}
+
 impl Shelf {
     /// Looks in `folder`, `LOBE_LESSONS`, `./lessons`, and last in the program itself.
     pub fn open(folder: Option<&Path>) -> Result<Self, Failure> {
-        if let Some(folder) = folder {
-            return Self::of_folder(folder);
+        Ok(Self::of(&sources(folder)?))
+    }
+
+    /// One lesson by id or number. Where the name of a file says that it is the one, no other is
+    /// read.
+    pub fn one(folder: Option<&Path>, wanted: &str) -> Result<Arc<Lesson>, Failure> {
+        let sources = sources(folder)?;
+        let named = sources.iter().find(|it| stem(&it.name()) == wanted);
+        if let Some(file) = named.map(Source::read)
+            && let Some(lesson) = file.lesson
+            && lesson.id.text == wanted
+        {
+            return Ok(lesson);
         }
-        if let Some(folder) = env::var_os("LOBE_LESSONS").filter(|value| !value.is_empty()) {
-            return Self::of_folder(Path::new(&folder));
-        }
-        if let Ok(shelf) = Self::of_folder(Path::new("lessons")) {
-            return Ok(shelf);
-        }
-        let files = BUILT_IN
-            .iter()
-            .map(|(name, text)| File::read(format!("lessons/{name}"), (*text).to_owned()));
-        Ok(Self {
-            files: numbered(files.collect()),
-        })
+        Self::of(&sources).find(wanted).cloned()
+    }
+
+    fn of(sources: &[Source]) -> Self {
+        let files = numbered(sources.iter().map(Source::read).collect());
+        Self { files }
     }
 
     /// The files and folders that were named.
@@ -54,7 +90,7 @@ impl Shelf {
         let mut files = Vec::new();
         for path in paths {
             if path.is_dir() {
-                files.extend(Self::of_folder(path)?.files);
+                files.extend(of_folder(path)?.iter().map(Source::read));
             } else {
                 let bytes = fs::read(path).map_err(|error| Failure::unreadable(path, &error))?;
                 files.push(File::from_bytes(path, bytes));
@@ -62,37 +98,6 @@ impl Shelf {
         }
         Ok(Self {
             files: numbered(files),
-        })
-    }
-
-    fn of_folder(folder: &Path) -> Result<Self, Failure> {
-        let entries = fs::read_dir(folder).map_err(|error| Failure::unreadable(folder, &error))?;
-        let mut paths: Vec<PathBuf> = entries
-            .filter_map(|entry| Some(entry.ok()?.path()))
-            .filter(|path| {
-                path.extension()
-                    .is_some_and(|extension| extension == "toml")
-            })
-            .collect();
-        paths.sort();
-        if paths.is_empty() {
-            return Err(Failure::unusable(format!(
-                "no lesson in {}: put a .toml file there, or leave --lessons out to take the lessons built in",
-                folder.display()
-            )));
-        }
-        // One file that cannot be read must not close the others.
-        let files = paths.iter().map(|path| match fs::read(path) {
-            Ok(bytes) => File::from_bytes(path, bytes),
-            Err(error) => {
-                let why = format!("It cannot be read: {}.", plain_reason(&error));
-                let name = path.display().to_string();
-                let help = "Move it out of the folder of lessons, or make it readable.";
-                File::unreadable(name, String::new(), Place::default(), why, help)
-            }
-        });
-        Ok(Self {
-            files: numbered(files.collect()),
         })
     }
 
@@ -118,7 +123,7 @@ impl Shelf {
         let by_number = |file: &&File| wanted.parse() == Ok(file.number);
         let by_id = |file: &&File| match &file.lesson {
             Some(lesson) => lesson.id.text == wanted,
-            None => file.stem_without_number() == wanted,
+            None => stem(&file.name) == wanted,
         };
         let Some(file) = self
             .files
@@ -132,6 +137,51 @@ impl Shelf {
         file.lesson
             .as_ref()
             .ok_or_else(|| Failure::unusable(file.why_broken()))
+    }
+}
+
+/// The files of `folder`, `LOBE_LESSONS`, `./lessons`, or those in the program itself.
+fn sources(folder: Option<&Path>) -> Result<Vec<Source>, Failure> {
+    if let Some(folder) = folder {
+        return of_folder(folder);
+    }
+    if let Some(folder) = env::var_os("LOBE_LESSONS").filter(|value| !value.is_empty()) {
+        return of_folder(Path::new(&folder));
+    }
+    Ok(of_folder(Path::new("lessons")).unwrap_or_else(|_| {
+        let files = BUILT_IN.iter();
+        files
+            .map(|(name, text)| Source::BuiltIn(name, text))
+            .collect()
+    }))
+}
+
+fn of_folder(folder: &Path) -> Result<Vec<Source>, Failure> {
+    let entries = fs::read_dir(folder).map_err(|error| Failure::unreadable(folder, &error))?;
+    let mut paths: Vec<PathBuf> = entries
+        .filter_map(|entry| Some(entry.ok()?.path()))
+        .filter(|path| {
+            path.extension()
+                .is_some_and(|extension| extension == "toml")
+        })
+        .collect();
+    paths.sort();
+    if paths.is_empty() {
+        return Err(Failure::unusable(format!(
+            "no lesson in {}: put a .toml file there, or leave --lessons out to take the lessons built in",
+            folder.display()
+        )));
+    }
+    Ok(paths.into_iter().map(Source::Path).collect())
+}
+
+/// The name of a file without its folder, its number and its ending.
+fn stem(name: &str) -> &str {
+    let name = name.rsplit(['/', '\\']).next().unwrap_or(name);
+    let stem = name.strip_suffix(".toml").unwrap_or(name);
+    match stem.split_once('-') {
+        Some((number, rest)) if number.parse::<u32>().is_ok() => rest,
+        _ => stem,
     }
 }
 
@@ -195,15 +245,6 @@ impl File {
                 "{}: not a lesson; `lobe check {}` may say more",
                 self.name, self.name
             ),
-        }
-    }
-
-    fn stem_without_number(&self) -> &str {
-        let name = self.name.rsplit(['/', '\\']).next().unwrap_or(&self.name);
-        let stem = name.strip_suffix(".toml").unwrap_or(name);
-        match stem.split_once('-') {
-            Some((number, rest)) if number.parse::<u32>().is_ok() => rest,
-            _ => stem,
         }
     }
 

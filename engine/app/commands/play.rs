@@ -10,8 +10,7 @@ use crate::tui::dials::{Dials, Quantity};
 use crate::{output, text, tui};
 
 pub fn run(folders: &Folders, args: &Play) -> Result<Done, Failure> {
-    let shelf = Shelf::open(folders.lessons.as_deref())?;
-    let lesson = shelf.find(&args.lesson)?;
+    let lesson = &Shelf::one(folders.lessons.as_deref(), &args.lesson)?;
     let id = picture_of(lesson, args.picture.as_deref())?;
     let shown = fingerprint(lesson, id)
         .ok_or_else(|| Failure::unusable(format!("{} has no picture `{id}`", lesson.id.text)))?;

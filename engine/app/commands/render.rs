@@ -15,6 +15,7 @@ use tutor::prose::Block;
 use crate::cli::{Backend, Folders, Precision, Render, Values};
 use crate::exit::{Done, Failure};
 use crate::fingerprints::fingerprint;
+use crate::lessons::Shelf;
 use crate::maps::map_spec;
 use crate::output;
 use crate::picture_cache::Entry;
@@ -83,38 +84,92 @@ impl Visibility {
     }
 }
 
+/// What a picture is.
+#[derive(Clone, Copy)]
+enum Kind {
+    Fingerprint,
+    Plot,
+    Map,
+}
+
+/// Every picture of a lesson, in the order in which they are drawn, by its id.
+fn pictures(lesson: &Lesson) -> Vec<(Kind, &str)> {
+    let fingerprints = lesson.fingerprints.iter().map(|it| &it.id);
+    let plots = lesson.plots.iter().map(|it| &it.id);
+    let maps = lesson.maps.iter().map(|it| &it.id);
+    let fingerprints = fingerprints.map(|id| (Kind::Fingerprint, id.text.as_str()));
+    let plots = plots.map(|id| (Kind::Plot, id.text.as_str()));
+    let maps = maps.map(|id| (Kind::Map, id.text.as_str()));
+    fingerprints.chain(plots).chain(maps).collect()
+}
+
+/// The picture of a lesson that was named.
+fn named<'a>(lesson: &'a Lesson, wanted: &str) -> Result<(Kind, &'a str), Failure> {
+    let all = pictures(lesson);
+    let found = all.iter().copied().find(|(_, id)| slug(id) == wanted);
+    found.ok_or_else(|| {
+        let ids: Vec<&str> = all.iter().map(|(_, id)| slug(id)).collect();
+        let lesson = &lesson.id.text;
+        let has = match ids.as_slice() {
+            [] => "none".to_owned(),
+            ids => ids.join(", "),
+        };
+        Failure::unusable(format!("{lesson} has no picture `{wanted}`: it has {has}"))
+    })
+}
+
 pub fn run(folders: &Folders, args: &Render) -> Result<Done, Failure> {
-    let shelf = super::shelf(folders)?;
-    let lessons: Vec<&Arc<Lesson>> = if args.names.is_empty() {
-        shelf.lessons().collect()
-    } else {
-        args.names
-            .iter()
-            .map(|wanted| shelf.find(wanted))
-            .collect::<Result<_, _>>()?
-    };
+    let folder = folders.lessons.as_deref();
+    let mut lessons: Vec<(Arc<Lesson>, Option<&str>)> = Vec::new();
+    if args.names.is_empty() {
+        lessons.extend(
+            super::shelf(folders)?
+                .lessons()
+                .map(|it| (it.clone(), None)),
+        );
+    }
+    for name in &args.names {
+        let (lesson, picture) = match name.split_once('/') {
+            Some((lesson, picture)) => (lesson, Some(picture)),
+            None => (name.as_str(), None),
+        };
+        lessons.push((Shelf::one(folder, lesson)?, picture));
+    }
+    // A name that is none is said before anything is drawn.
+    let mut wanted = Vec::new();
+    for (lesson, picture) in &lessons {
+        match picture {
+            Some(picture) => wanted.push((lesson, vec![named(lesson, picture)?])),
+            None => wanted.push((lesson, pictures(lesson))),
+        }
+    }
     let out = out_folder(args.out.as_deref());
     fs::create_dir_all(&out).map_err(|error| Failure::unwritable(&out, &error))?;
-    for lesson in lessons {
-        for entry in &lesson.fingerprints {
-            if let Some(fingerprint) = fingerprint(lesson, &entry.id) {
-                let report = draw(&fingerprint, args, &out)?;
-                say(&report, args)?;
-                if let Some(format) = args.values {
-                    say(&write_values(&fingerprint, args, format, &out)?, args)?;
+    for (lesson, pictures) in wanted {
+        for (kind, id) in pictures {
+            match kind {
+                Kind::Fingerprint => draw_fingerprint(lesson, id, args, &out)?,
+                Kind::Plot => {
+                    for ending in ["svg", "png"] {
+                        say(&draw_plot(lesson, id, ending, args, &out)?, args)?;
+                    }
                 }
+                Kind::Map => say(&draw_map(lesson, id, args, &out)?, args)?,
             }
-        }
-        let plots = lesson.plots.iter();
-        let plots = plots.flat_map(|plot| [(&plot.id, "svg"), (&plot.id, "png")]);
-        for (id, ending) in plots {
-            say(&draw_plot(lesson, id, ending, args, &out)?, args)?;
-        }
-        for map in &lesson.maps {
-            say(&draw_map(lesson, &map.id, args, &out)?, args)?;
         }
     }
     Ok(Done::Fine)
+}
+
+fn draw_fingerprint(lesson: &Lesson, id: &str, args: &Render, out: &Path) -> Result<(), Failure> {
+    let Some(fingerprint) = fingerprint(lesson, id) else {
+        return Ok(());
+    };
+    say(&draw(&fingerprint, args, out)?, args)?;
+    if let Some(format) = args.values {
+        say(&write_values(&fingerprint, args, format, out)?, args)?;
+    }
+    Ok(())
 }
 
 fn out_folder(wanted: Option<&Path>) -> PathBuf {

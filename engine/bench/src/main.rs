@@ -64,6 +64,22 @@ fn main() {
         }),
         "-",
     );
+    row(
+        "render, one fingerprint of 512², no cache",
+        repeat(25, || render(&lobe, None, &["smith-g2/double-division"])),
+        "120",
+    );
+    row(
+        "render, all pictures, no cache",
+        repeat(3, || render(&lobe, None, &[])),
+        "5000",
+    );
+    let caches = tempfile::tempdir().expect("a temporary folder");
+    row(
+        "render, all pictures, cached",
+        repeat(15, || render(&lobe, Some(caches.path()), &[])),
+        "30",
+    );
     println!();
     let (share, bytes) = idle(&lobe);
     println!(
@@ -113,15 +129,30 @@ fn row(name: &str, mut times: Vec<f64>, budget: &str) {
 }
 
 fn whole(lobe: &Path, arguments: &[&str]) -> f64 {
+    run(Command::new(lobe).args(arguments))
+}
+
+/// Pictures drawn by the CPU into a folder of their own, with the cache in `caches`, or with an
+/// empty one.
+fn render(lobe: &Path, caches: Option<&Path>, names: &[&str]) -> f64 {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let caches = caches.unwrap_or(folder.path());
+    let mut command = Command::new(lobe);
+    command
+        .env("XDG_CACHE_HOME", caches)
+        .args(["render", "--backend", "cpu", "--size", "512", "--out"])
+        .arg(folder.path())
+        .args(names);
+    run(&mut command)
+}
+
+fn run(command: &mut Command) -> f64 {
     let start = Instant::now();
-    let output = Command::new(lobe)
-        .args(arguments)
-        .output()
-        .expect("the program starts");
+    let output = command.output().expect("the program starts");
     let time = start.elapsed();
     assert!(
         output.status.success(),
-        "lobe {arguments:?}: {}",
+        "{command:?}: {}",
         String::from_utf8_lossy(&output.stderr)
     );
     time.as_secs_f64() * 1e3
