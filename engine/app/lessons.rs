@@ -188,11 +188,15 @@ fn stem(name: &str) -> &str {
 impl File {
     fn read(name: String, text: String) -> Self {
         let (lesson, findings) = tutor::load(&name, &text);
+        let with_measure = |mut lesson: Lesson| {
+            lesson.measure = Some(crate::seen::means);
+            Arc::new(lesson)
+        };
         Self {
             name,
             text,
             number: 0,
-            lesson: lesson.map(Arc::new),
+            lesson: lesson.map(with_measure),
             findings,
         }
     }

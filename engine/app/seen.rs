@@ -3,11 +3,9 @@
 //! A figure that follows from the formulas and the geometry alone is computed so, and the picture has
 //! to show it too; the others are what the picture shows.
 
-use std::collections::HashMap;
-
 use formula::Expr;
 use renders::{Backend, Eye, Fingerprint, Options, Scene, Visibility};
-use tutor::lesson::{MEAN_SIZES, Means, Printed};
+use tutor::lesson::{Means, Total};
 use tutor::{Finding, Lesson, Place};
 
 use crate::fingerprints::fingerprint;
@@ -52,13 +50,7 @@ fn check_entry(lesson: &Lesson, entry: &tutor::lesson::Fingerprint) -> Vec<Findi
     let finding = |place: Place, code, message: String| {
         Finding::new(&lesson.file, &lesson.source, place, code, message)
     };
-    let checked = check_figures(lesson, entry, &fingerprint, &finding).and_then(|mut found| {
-        if let Some(means) = &entry.means {
-            found.extend(check_means(lesson, means, &fingerprint, &finding)?);
-        }
-        Ok(found)
-    });
-    checked
+    check_figures(lesson, entry, &fingerprint, &finding)
         .unwrap_or_else(|error| vec![finding(entry.id.place, "not-a-scene", format!("{error}."))])
 }
 
@@ -69,9 +61,6 @@ fn check_figures(
     finding: Told<'_>,
 ) -> Result<Vec<Finding>, renders::Error> {
     let mut found = Vec::new();
-    if entry.seen.is_empty() {
-        return Ok(found);
-    }
     let options = Options {
         size: SIZE,
         backend: Backend::Cpu,
@@ -120,50 +109,20 @@ fn printed_as(value: f64, shown: &str) -> String {
     formula::format_number(value, formula::Digits::Significant(digits))
 }
 
-fn check_means(
-    lesson: &Lesson,
-    means: &Means,
-    fingerprint: &Fingerprint<'_>,
-    finding: Told<'_>,
-) -> Result<Vec<Finding>, renders::Error> {
-    // Of what is no size nothing can be drawn; it was found already.
-    let sizes: Vec<u32> = means
-        .sizes
-        .iter()
-        .map(|size| size.value)
-        .filter(|size| MEAN_SIZES.contains(size) && size.fract() == 0.0)
-        .map(|size| size as u32)
-        .collect();
-    let totals: HashMap<u32, renders::Total> = renders::convergence(fingerprint, &sizes)?
-        .into_iter()
-        .map(|total| (total.size, total))
-        .collect();
-    let mut found = Vec::new();
-    let mut check = |size: &Printed, mean: &Printed, name: &str, drawn: f64| {
-        let shown = &lesson.source[mean.place.start..mean.place.end];
-        if !formula::agrees_with_printed(drawn, shown) {
-            let value = printed_as(drawn, shown);
-            let message = format!(
-                "The mean of the {name} panel at {} pixels is printed as {shown}; the picture shows {value}.",
-                size.value
-            );
-            found.push(finding(mean.place, "number-differs", message).expecting(value));
-        }
+/// The means of a fingerprint's panels, at all sizes of its `means` that a picture can have; empty
+/// where nothing can be drawn.
+pub fn means(lesson: &Lesson, entry: &tutor::lesson::Fingerprint, means: &Means) -> Vec<Total> {
+    let Some(fingerprint) = fingerprint(lesson, &entry.id) else {
+        return Vec::new();
     };
-    for (index, size) in means.sizes.iter().enumerate() {
-        let Some(total) = totals.get(&(size.value as u32)) else {
-            continue;
-        };
-        for (name, means, drawn) in [
-            ("right", &means.right, total.right),
-            ("wrong", &means.wrong, total.wrong),
-        ] {
-            if let Some(mean) = means.get(index) {
-                check(size, mean, name, drawn);
-            }
-        }
-    }
-    Ok(found)
+    let sizes: Vec<u32> = means.drawable().collect();
+    let totals = renders::convergence(&fingerprint, &sizes).unwrap_or_default();
+    let total = |it: renders::Total| Total {
+        size: f64::from(it.size),
+        right: it.right,
+        wrong: it.wrong,
+    };
+    totals.into_iter().map(total).collect()
 }
 
 /// A figure that is known without a picture, under one distant light at the angle β from a distant
@@ -319,6 +278,32 @@ mod tests {
             (drawn - closed).abs() <= COUNTED * closed,
             "{name} at {deg}°: {closed} in closed form, {drawn} in the picture"
         );
+    }
+
+    /// The right mean settles, and the wrong one rises by what the lesson says of it.
+    #[test]
+    fn the_means_of_a_lesson_are_those_of_its_pictures() {
+        let shelf = crate::lessons::Shelf::open(None).expect("lessons");
+        let lesson = shelf.find("smith-g2").expect("the lesson");
+        let Some(tutor::prose::Block::Plot(plot)) = lesson.plot("growth") else {
+            panic!("no plot");
+        };
+        let [(_, right), (_, wrong)] = plot.series.as_slice() else {
+            panic!("{} curves", plot.series.len());
+        };
+        let print = lesson.fingerprints.iter();
+        let mut print = print.filter_map(|print| Some((print, print.means.as_ref()?)));
+        let (print, means) = print.next().expect("a fingerprint with means");
+        let sizes: Vec<f64> = means.drawable().map(f64::from).collect();
+        for points in [right, wrong] {
+            assert_eq!(points.iter().map(|it| it.0).collect::<Vec<_>>(), sizes);
+        }
+        let said = print.known()["growth_per_doubling"];
+        for (right, wrong) in right.windows(2).zip(wrong.windows(2)) {
+            assert!((right[1].1 / right[0].1 - 1.0).abs() < 1e-3, "{right:?}");
+            let rise = wrong[1].1 - wrong[0].1;
+            assert!((rise / said - 1.0).abs() < 0.1, "{wrong:?}, said {said}");
+        }
     }
 
     const GGX: &str = "d_ggx() * v_ggx() * f_schlick() * n_dot_l";

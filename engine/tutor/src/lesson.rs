@@ -18,7 +18,9 @@ use crate::rubric::Rubric;
 pub use exercise::{
     ChoiceOption, Exercise, ExerciseStep, NamedMistake, SuspectLine, Task, Tolerance, Variable,
 };
-pub use fingerprint::{Fingerprint, MEAN_SIZES, Means, Printed, SEEN, STAGING, SceneLight};
+pub use fingerprint::{
+    Fingerprint, MEAN_SIZES, Means, Measure, Printed, SEEN, STAGING, SceneLight, Total,
+};
 pub use look::{LookTask, Shows};
 pub use shader::ShaderTask;
 
@@ -123,6 +125,8 @@ pub struct Lesson {
     pub reteach: Vec<Reteach>,
     /// Explain-back and re-test questions, in order.
     pub explain: Vec<Explain>,
+    /// Who measures the means of pictures, where somebody can; else their curves are empty.
+    pub measure: Option<Measure>,
 }
 
 impl Lesson {

@@ -74,12 +74,7 @@ impl Lesson {
     fn curve(&self, plot: &Plot, series: &Series) -> Vec<(f64, f64)> {
         let mut points = match &series.is {
             Curve::Formula(formula) => self.computed(plot, &formula.expr, &series.with),
-            Curve::Means { picture, wrong } => {
-                let mut prints = self.fingerprints.iter();
-                let print = prints.find(|print| print.id.text == picture.text);
-                let means = print.and_then(|print| print.means.as_ref());
-                means.map_or_else(Vec::new, |means| means.points(*wrong))
-            }
+            Curve::Means { picture, wrong } => self.means(picture, *wrong),
         };
         points.retain(|(_, y)| y.is_finite() && (!plot.y.log || *y > 0.0));
         points

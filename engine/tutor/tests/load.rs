@@ -341,7 +341,7 @@ fn prose_types_no_numbers() {
 
 #[test]
 fn means_are_those_of_a_picture() {
-    const MEANS: &str = "means = { size = [16, 32], right = [0.5, 0.5], wrong = [0.6, 0.7] }";
+    const MEANS: &str = "means = { size = [16, 32] }";
     check_edit(
         MEANS,
         &MEANS.replace("[16, 32]", "[32, 16]"),
@@ -356,15 +356,9 @@ fn means_are_those_of_a_picture() {
     );
     check_edit(
         MEANS,
-        &MEANS.replace("0.6, ", ""),
-        "0.7] }",
-        "`wrong` has 1 means for 2 sizes.",
-    );
-    check_edit(
-        MEANS,
-        &MEANS.replace(", wrong = [0.6, 0.7]", ""),
-        "{ size",
-        "`means` has no `wrong`.",
+        &MEANS.replace("size = [16, 32]", ""),
+        "{  }",
+        "`means` has no `size`.",
     );
     check_edit(MEANS, "", "", "The fingerprint `twice` has no `means`.");
     check_edit(
@@ -594,6 +588,33 @@ fn a_curve_has_points_where_it_bends() {
             "at {middle}"
         );
     }
+}
+
+/// Whoever can draw measures the means, once; where nobody can the curve is empty.
+#[test]
+fn means_are_measured_by_who_can_draw() {
+    fn half(
+        _: &tutor::Lesson,
+        _: &tutor::lesson::Fingerprint,
+        means: &tutor::lesson::Means,
+    ) -> Vec<tutor::lesson::Total> {
+        let total = |size| tutor::lesson::Total {
+            size,
+            right: 1.0 / size,
+            wrong: size / 32.0,
+        };
+        means.drawable().map(f64::from).map(total).collect()
+    }
+    let mut lesson = load("complete.toml", COMPLETE).0.expect("a lesson");
+    let curve = |lesson: &tutor::Lesson| match lesson.plot("ratio") {
+        Some(tutor::prose::Block::Plot(plot)) => plot.series[1].1.clone(),
+        other => panic!("no plot: {other:?}"),
+    };
+    assert_eq!(curve(&lesson), []);
+    lesson.measure = Some(half);
+    assert_eq!(curve(&lesson), [(16.0, 0.5), (32.0, 1.0)]);
+    lesson.measure = Some(|_, _, _| panic!("measured twice"));
+    assert_eq!(curve(&lesson).len(), 2);
 }
 
 #[test]

@@ -130,10 +130,8 @@ fn means(checker: &mut Checker<'_>, curve: &Curve) {
     let found = prints.iter().find(|it| it.id.text == picture.text);
     if found.is_some_and(|print| print.means.is_none()) {
         let message = format!("The fingerprint `{picture}` has no `means`.");
-        checker.error_in(picture, "unknown-id", message).help = Some(
-            "Give it some: means = { size = [64, 512], right = [0.1, 0.1], wrong = [0.2, 0.3] }"
-                .to_owned(),
-        );
+        checker.error_in(picture, "unknown-id", message).help =
+            Some("Say of which sizes: means = { size = [64, 512] }".to_owned());
     } else {
         refers(checker, picture, &known, "fingerprint");
     }

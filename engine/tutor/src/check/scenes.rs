@@ -79,17 +79,6 @@ fn means(checker: &mut Checker<'_>, print: &Fingerprint) {
         within(checker, size.place, "size", size.value, fits, &range);
         least = least.max(size.value + 1.0);
     }
-    for (name, values) in [("right", &means.right), ("wrong", &means.wrong)] {
-        if values.len() != means.sizes.len() {
-            let message = format!(
-                "`{name}` has {} means for {} sizes.",
-                values.len(),
-                means.sizes.len()
-            );
-            let place = values.first().map_or(print.id.place, |first| first.place);
-            checker.error(place, "count-differs", message);
-        }
-    }
 }
 
 fn lights(checker: &mut Checker<'_>, print: &Fingerprint) {

@@ -1,8 +1,10 @@
 //! What a bug looks like: two formulas and the scene that shows where they differ.
 
+use std::sync::OnceLock;
+
 use formula::Values;
 
-use super::{Formula, Given, Text, values};
+use super::{Formula, Given, Lesson, Text, values};
 use crate::finding::Place;
 
 /// `[[fingerprint]]`: what a bug looks like.
@@ -31,27 +33,59 @@ pub struct Fingerprint {
     pub hides: Option<Text>,
 }
 
-/// `means`: the mean of the radiance over the sphere's disc, in pictures of several sizes, as it is
-/// printed: `lobe check` compares it with the pictures.
+/// `means`: the mean of the radiance over the sphere's disc, in pictures of several sizes. They are
+/// measured when a plot first shows them.
 #[derive(Clone, Debug)]
 pub struct Means {
     /// Pixels a side of a panel.
     pub sizes: Vec<Printed>,
-    /// Of the right formula, at each size.
-    pub right: Vec<Printed>,
-    /// Of the wrong one.
-    pub wrong: Vec<Printed>,
+    measured: OnceLock<Vec<Total>>,
 }
+
+/// Means over the disc of one picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Total {
+    /// Pixels a side of a panel.
+    pub size: f64,
+    /// Of the right formula.
+    pub right: f64,
+    /// Of the wrong one.
+    pub wrong: f64,
+}
+
+/// Draws a lesson's fingerprint at all sizes of its `means`. Nothing here can draw: who can says how.
+pub type Measure = fn(&Lesson, &Fingerprint, &Means) -> Vec<Total>;
 
 /// Sizes of pictures of which a mean can be quoted, in pixels a side of a panel.
 pub const MEAN_SIZES: std::ops::RangeInclusive<f64> = 16.0..=1024.0;
 
 impl Means {
-    /// Sizes and means of one of the panels.
-    pub fn points(&self, wrong: bool) -> Vec<(f64, f64)> {
-        let means = if wrong { &self.wrong } else { &self.right };
+    /// Of pictures of these sizes.
+    pub fn new(sizes: Vec<Printed>) -> Self {
+        let measured = OnceLock::new();
+        Self { sizes, measured }
+    }
+
+    /// The sizes that a picture can have: of what is no size nothing can be drawn.
+    pub fn drawable(&self) -> impl Iterator<Item = u32> {
         let sizes = self.sizes.iter().map(|size| size.value);
-        sizes.zip(means.iter().map(|mean| mean.value)).collect()
+        sizes
+            .filter(|size| MEAN_SIZES.contains(size) && size.fract() == 0.0)
+            .map(|size| size as u32)
+    }
+}
+
+impl Lesson {
+    /// Sizes and means of one of a fingerprint's panels; empty where nobody can draw.
+    pub(crate) fn means(&self, picture: &str, wrong: bool) -> Vec<(f64, f64)> {
+        let print = self.fingerprints.iter().find(|it| it.id.text == picture);
+        let found = print.and_then(|print| Some((print, print.means.as_ref()?)));
+        let Some(((print, means), measure)) = found.zip(self.measure) else {
+            return Vec::new();
+        };
+        let totals = means.measured.get_or_init(|| measure(self, print, means));
+        let of = |it: &Total| (it.size, if wrong { it.wrong } else { it.right });
+        totals.iter().map(of).collect()
     }
 }
 

@@ -159,6 +159,7 @@ fn read_lesson(table: &Table<'_, '_>) -> Lesson {
             figures: entry.figures(),
         }),
         explain: each_some(table, "explain", "[[explain]]", read_explain),
+        measure: None,
         worked,
         id,
     };

@@ -241,7 +241,7 @@ impl<'s, 't> Table<'s, 't> {
     /// An array of numbers with their places; it has to be there.
     pub fn printed(&self, key: &'static str) -> Vec<Printed> {
         let Some(value) = self.get(key) else {
-            self.missing(key, &format!("{key} = [1.0, 2.0]"));
+            self.missing(key, &format!("{key} = [64, 512]"));
             return Vec::new();
         };
         let Some(array) = value.get_ref().as_array() else {

@@ -10,13 +10,9 @@ pub fn read_fingerprint(table: &Table<'_, '_>) -> Option<Fingerprint> {
     let (shows, hides) = (table.need_text("shows"), table.text("hides"));
     let lights = each_some(table, "light", "[[fingerprint.light]]", read_light);
     let means = table.table("means", "`means`").map(|means| {
-        let found = Means {
-            sizes: means.printed("size"),
-            right: means.printed("right"),
-            wrong: means.printed("wrong"),
-        };
+        let sizes = means.printed("size");
         means.finish();
-        found
+        Means::new(sizes)
     });
     let (right, wrong) = (table.need_formula("right"), table.need_formula("wrong"));
     Some(Fingerprint {
