@@ -87,6 +87,24 @@ impl Axis {
         fits.then(|| Self::fit([].into_iter(), self.log, Some(range), false))?
     }
 
+    /// The same axis out to the ticks that lie just beyond its ends: a curve that stops short of a
+    /// pole is read against a round number all the same.
+    pub fn to_ticks(self, count: usize) -> Self {
+        if self.log {
+            return self;
+        }
+        let (step, span) = (self.step(count), self.high - self.low);
+        let near = |end: f64, tick: f64| match (end - tick).abs() < NEAR * span {
+            true => tick,
+            false => end,
+        };
+        Self {
+            low: near(self.low, (self.low / step).floor() * step),
+            high: near(self.high, (self.high / step).ceil() * step),
+            log: false,
+        }
+    }
+
     /// Where `value` stands: 0 at the low end, 1 at the high end; NaN where it cannot stand.
     pub fn share(&self, value: f64) -> f64 {
         if self.log {
@@ -113,14 +131,26 @@ impl Axis {
         }
     }
 
-    fn linear_ticks(&self, count: usize) -> Vec<Tick> {
+    /// From one tick of a linear axis to the next.
+    fn step(&self, count: usize) -> f64 {
         let raw = (self.high - self.low) / count.max(1) as f64;
         let power = 10.0_f64.powf(raw.log10().floor());
+        let enough = |step: &f64| *step >= raw * 0.999;
         let step = [1.0, 2.0, 2.5, 5.0, 10.0]
-            .into_iter()
             .map(|factor| factor * power)
-            .find(|step| *step >= raw * 0.999)
+            .into_iter()
+            .find(enough)
             .unwrap_or(10.0 * power);
+        // Parts of a right angle, where they end where the axis does and tens do not.
+        let ends_on = |step: f64| [self.low, self.high].iter().all(|end| end % step == 0.0);
+        let angle = [15.0, 30.0, 45.0]
+            .into_iter()
+            .find(|angle| enough(angle) && *angle < 3.0 * raw && ends_on(*angle));
+        angle.filter(|_| !ends_on(step)).unwrap_or(step)
+    }
+
+    fn linear_ticks(&self, count: usize) -> Vec<Tick> {
+        let step = self.step(count);
         let decimals = (0..12)
             .find(|&d| {
                 let scaled = step * 10.0_f64.powi(d);
@@ -140,13 +170,34 @@ impl Axis {
             .collect()
     }
 
+    /// Ticks at powers of two, where both ends are: such are the sizes of pictures.
+    fn doublings(&self, count: usize) -> Option<Vec<Tick>> {
+        let power = |end: f64| {
+            let exponent = end.log2().round();
+            (exponent.exp2() == end && (1.0..=20.0).contains(&exponent)).then_some(exponent as i32)
+        };
+        let (first, last) = (power(self.low)?, power(self.high)?);
+        let every = ((last - first) as usize).div_ceil(count.max(1)).max(1);
+        let ticks = (first..=last).step_by(every).map(|exponent| Tick {
+            at: f64::from(exponent).exp2(),
+            label: (1_i64 << exponent).to_string(),
+        });
+        Some(ticks.collect())
+    }
+
     fn log_ticks(&self, count: usize) -> Vec<Tick> {
+        if let Some(ticks) = self.doublings(count) {
+            return ticks;
+        }
         let first = (self.low.log10() + 1e-9).floor() as i32;
         let last = (self.high.log10() - 1e-9).ceil() as i32;
-        let decades = (last - first).max(1) as usize;
-        let every = decades.div_ceil(count.max(1)).max(1) as i32;
+        let span = (self.high / self.low).log10();
+        let every = span.ceil().max(1.0) as usize;
+        let every = every.div_ceil(count.max(1)).max(1) as i32;
         // With few decades the labels 2 and 5 fit in between.
-        let between = decades * 3 <= count + 2;
+        let between = span * 3.0 <= count as f64 + 2.0;
+        // Where decades stand close, the lines between them would be a hatching.
+        let minor = every == 1 && span * 2.0 <= count as f64;
         let mut ticks = Vec::new();
         for exponent in first..=last {
             for digit in 1..=9 {
@@ -159,8 +210,7 @@ impl Axis {
                     2 | 5 => between,
                     _ => false,
                 };
-                // Where decades stand close, the lines between them would be a hatching.
-                if labelled || (every == 1 && decades * 2 <= count) {
+                if labelled || minor {
                     let label = if labelled {
                         power(digit, exponent)
                     } else {
@@ -173,6 +223,9 @@ impl Axis {
         ticks
     }
 }
+
+/// How far beyond an axis's end a tick may lie to become its end, as a share of its length.
+const NEAR: f64 = 0.025;
 
 fn minus(text: String) -> String {
     text.replace('-', "\u{2212}")
@@ -235,7 +288,23 @@ mod tests {
             &["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"],
         );
         check_labels(-1.0, 1.0, false, 4, &["−1.0", "−0.5", "0.0", "0.5", "1.0"]);
-        check_labels(0.0, 90.0, false, 6, &["0", "20", "40", "60", "80"]);
+        check_labels(
+            0.0,
+            90.0,
+            false,
+            6,
+            &["0", "15", "30", "45", "60", "75", "90"],
+        );
+        check_labels(
+            0.0,
+            90.0,
+            false,
+            9,
+            &["0", "10", "20", "30", "40", "50", "60", "70", "80", "90"],
+        );
+        check_labels(0.0, 45.0, false, 6, &["0", "15", "30", "45"]);
+        check_labels(0.0, 100.0, false, 6, &["0", "20", "40", "60", "80", "100"]);
+        check_labels(32.0, 512.0, true, 7, &["32", "64", "128", "256", "512"]);
         check_labels(0.01, 100.0, true, 6, &["0.01", "0.1", "1", "10", "100"]);
         check_labels(
             0.1,
@@ -245,6 +314,19 @@ mod tests {
             &["0.1", "0.2", "0.5", "1", "2", "5", "10"],
         );
         check_labels(1e-8, 1.0, true, 4, &["10⁻⁸", "10⁻⁶", "0.0001", "0.01", "1"]);
+    }
+
+    #[test]
+    fn an_axis_reaches_the_ticks_that_are_near() {
+        let ends = |low, high| {
+            let axis = Axis::fit([].into_iter(), false, Some((low, high)), false);
+            let axis = axis.expect("a range").to_ticks(6);
+            (axis.low, axis.high)
+        };
+        assert_eq!(ends(-0.495, 0.998), (-0.5, 1.0));
+        assert_eq!(ends(0.02, 0.98), (0.0, 1.0));
+        assert_eq!(ends(0.1, 0.9), (0.1, 0.9));
+        assert_eq!(ends(0.0, 90.0), (0.0, 90.0));
     }
 
     #[test]

@@ -170,7 +170,8 @@ impl Canvas {
                     } else {
                         0.0
                     };
-                    let distance = (x - x0 - t * dx).hypot(y - y0 - t * dy);
+                    let (across, down) = (x - x0 - t * dx, y - y0 - t * dy);
+                    let distance = (across * across + down * down).sqrt();
                     let covers = (width / 2.0 + 0.5 - distance).clamp(0.0, width.min(1.0));
                     let slot = &mut coverage[(row - top) * columns + column - left];
                     *slot = slot.max(covers);

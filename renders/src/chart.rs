@@ -15,6 +15,9 @@ use crate::text::{self, Weight};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
+/// A curve of at most so many points shows them.
+const FEW: usize = 16;
+
 /// A figure of curves, in the units of its axes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PlotSpec {
@@ -205,7 +208,12 @@ impl Chart<'_> {
                 "{width} by {height} pixels leave no room for the plot"
             )));
         }
-        let x_ticks = x_axis.ticks(((frame.right - frame.left) / (7.0 * em)).max(2.0) as usize);
+        let x_count = ((frame.right - frame.left) / (7.0 * em)).max(2.0) as usize;
+        let x_axis = match self.x_range {
+            None if !scatter => x_axis.to_ticks(x_count),
+            _ => x_axis,
+        };
+        let x_ticks = x_axis.ticks(x_count);
 
         if title > 0.0 {
             let size = 1.3 * em;
@@ -246,6 +254,15 @@ impl Chart<'_> {
             for run in runs(points, &x_axis, &y_axis, frame) {
                 pen.path(&run, width * em, colour, 1.0)?;
                 taken.curve(&run, 0.25 * em);
+            }
+            // So few were measured one by one, and between them nothing is known.
+            if points.len() <= FEW {
+                for (x, y) in points {
+                    if x_axis.holds(*x) && y_axis.holds(*y) {
+                        let at = (frame.x(&x_axis, *x), frame.y(&y_axis, *y));
+                        pen.disc(at.0, at.1, 1.5 * width * em, colour)?;
+                    }
+                }
             }
         }
         self.draw_marks(&pen, frame, axes, &mut taken)?;

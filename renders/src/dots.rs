@@ -206,9 +206,19 @@ impl Chart<'_> {
         for dot in dots().filter(|dot| !dot.label.is_empty()) {
             let width = f64::from(text::width(&dot.label, letters as f32, Weight::Regular));
             let bounds = (frame.left, frame.top, frame.right, frame.bottom);
-            if let Some(room) = taken.place_if_free(place(dot.at), width, self.em, bounds) {
-                // In the colour of the dot, which may be a little way off.
+            let at = place(dot.at);
+            if let Some(room) = taken.place_if_free(at, width, self.em, bounds) {
+                // In the colour of the dot, and tied to it where it is a little way off.
                 let colour = self.colour(dot.series);
+                let near = (at.0.clamp(room.0, room.2), at.1.clamp(room.1, room.3));
+                let away = (near.0 - at.0).hypot(near.1 - at.1);
+                if away > 1.2 * self.em {
+                    let share = 0.6 * self.em / away;
+                    let from = |from: f64, to: f64| from + share * (to - from);
+                    let tie = [(from(at.0, near.0), from(at.1, near.1)), near];
+                    pen.path(&tie, 0.06 * self.em, colour, 1.0)?;
+                    taken.curve(&tie, 0.5 * self.em);
+                }
                 let style = Style::new(letters as f32, Weight::Regular, Align::Left, colour);
                 pen.text(room.0, room.3 - 0.35 * letters, style, &dot.label)?;
             }

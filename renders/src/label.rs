@@ -58,17 +58,20 @@ impl Taken {
     fn best(&self, (x, y): (f64, f64), width: f64, em: f64, frame: Box) -> (f64, Box) {
         let (gap, height) = (0.7 * em, 1.1 * em);
         let beside = [x + gap, x - gap - width, x - width / 2.0];
+        // Further off it is less clear whose label it is: rather across a line or two.
         let heights = [
-            y - 0.5 * em - height,
-            y + 0.5 * em,
-            y - height / 2.0,
-            y - 1.6 * em - height,
-            y + 1.6 * em,
-            y - 2.7 * em - height,
-            y + 2.7 * em,
+            (y - 0.5 * em - height, 0.0),
+            (y + 0.5 * em, 0.0),
+            (y - height / 2.0, 0.0),
+            (y - 1.6 * em - height, 3.0),
+            (y + 1.6 * em, 3.0),
+            (y - 2.7 * em - height, 6.0),
+            (y + 2.7 * em, 6.0),
+            (y - 3.8 * em - height, 9.0),
+            (y + 3.8 * em, 9.0),
         ];
         let mut best = (f64::INFINITY, (x + gap, y - height, x + gap + width, y));
-        for (order, (&top, &left)) in heights
+        for (order, (&(top, far), &left)) in heights
             .iter()
             .flat_map(|top| beside.iter().map(move |left| (top, left)))
             .enumerate()
@@ -80,7 +83,8 @@ impl Taken {
                 && place.3 > y - 0.5 * em;
             let outside =
                 place.0 < frame.0 || place.1 < frame.1 || place.2 > frame.2 || place.3 > frame.3;
-            let cost = 1e-3 * order as f64
+            let cost = far
+                + 1e-3 * order as f64
                 + self
                     .points
                     .iter()

@@ -173,7 +173,9 @@ impl<'a> Page<'a> {
         }
         let right = self.layout.column(2);
         colour_bar(canvas, right, below, size, em);
-        figures(canvas, right, below + 4.6 * em, size, em, visibility);
+        let (terminator, rim) = self.fingerprint.scene.geometry().lit_along();
+        let rows = figures(visibility, terminator > -rim);
+        draw_figures(canvas, right, below + 4.6 * em, size, em, &rows);
 
         let mut y = below + chart_height + 0.2 * em;
         for note in &self.notes {
@@ -295,11 +297,15 @@ fn percent(share: f64) -> String {
     )
 }
 
-/// The figures that say whether the bug shows.
-fn figures(canvas: &mut Canvas, left: f32, top: f32, width: f32, em: f32, visibility: &Visibility) {
+/// The figures that say whether the bug shows: name and value.
+fn figures(visibility: &Visibility, has_terminator: bool) -> [(&'static str, String); 7] {
     let (rim_wrong, rim_right) = visibility.rim_over_highlight;
     let (brighter, dimmer) = visibility.changed_8;
-    let rows = [
+    let step = match has_terminator {
+        true => short(visibility.terminator_step),
+        false => "no terminator".to_owned(),
+    };
+    [
         (
             "highlight, buggy / correct",
             format!("{}×", short(visibility.ratio_at_highlight)),
@@ -310,13 +316,20 @@ fn figures(canvas: &mut Canvas, left: f32, top: f32, width: f32, em: f32, visibi
         ),
         ("rim (outer 0.4 %) / highlight, correct", short(rim_right)),
         ("rim (outer 0.4 %) / highlight, buggy", short(rim_wrong)),
-        (
-            "terminator step / highlight",
-            short(visibility.terminator_step),
-        ),
+        ("terminator step / highlight", step),
         ("pixels brighter by > 8/255", percent(brighter)),
         ("pixels dimmer by > 8/255", percent(dimmer)),
-    ];
+    ]
+}
+
+fn draw_figures(
+    canvas: &mut Canvas,
+    left: f32,
+    top: f32,
+    width: f32,
+    em: f32,
+    rows: &[(&str, String)],
+) {
     let mut y = top;
     for (name, value) in rows {
         canvas.text(
@@ -329,7 +342,7 @@ fn figures(canvas: &mut Canvas, left: f32, top: f32, width: f32, em: f32, visibi
             left + width,
             y,
             Style::new(em, Weight::Bold, Align::Right, DARK.ink),
-            &value,
+            value,
         );
         y += 1.6 * em;
     }
@@ -480,7 +493,7 @@ fn notes(fingerprint: &Fingerprint<'_>, profile: &Profile, exposure: f64) -> Vec
     ];
     match profile.growth {
         growth if growth.is_endless() => notes.push(format!(
-            "at the rim the buggy value grows as 1/(N·V)²: its mean over the disc has no limit, it rises by {} with every doubling of the picture's size",
+            "at the rim the buggy value grows as 1/(N·V)²: its mean over the disc has no limit, it rises by {} (before exposure) with every doubling of the picture's size",
             formula::format_number(growth.per_doubling, formula::Digits::Significant(2))
         )),
         growth if growth.power > 0.5 => notes.push(

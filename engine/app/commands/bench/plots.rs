@@ -133,14 +133,14 @@ const PICTURES: &[Picture] = &[
         colour: |row| format!("{}, {}", row.variant, row.precision),
         label: |row| {
             let size = row.group.trim_start_matches("render/");
-            format!("{size} x {size}")
+            format!("{size} × {size}")
         },
         same: false,
         ..PICTURE
     },
     Picture {
         file: "samples",
-        title: "Pictures of 128 x 128: samples a pixel",
+        title: "Pictures of 128 × 128: samples a pixel",
         holds: |row| row.group.starts_with("render_samples/"),
         colour: |row| format!("cpu, {}", row.precision),
         label: |row| row.variant.trim_end_matches(" a pixel").to_owned(),
@@ -242,11 +242,12 @@ fn spec(picture: &Picture, rows: &[&Row], machine: &str) -> PlotSpec {
     } else {
         (LEAST_ULP, "units in the last place of f32")
     };
-    let point = |row: &Row| (row.ns, row.max_ulp.max(least));
+    let (time, of_ns) = unit_of_time(rows);
+    let point = |row: &Row| (row.ns * of_ns, row.max_ulp.max(least));
     let mut series: Vec<(String, Vec<(f64, f64)>)> = Vec::new();
     let mut dots = Vec::new();
     for row in rows {
-        let name = (picture.colour)(row);
+        let name = written((picture.colour)(row));
         let index = match series.iter().position(|series| series.0 == name) {
             Some(index) => index,
             None => {
@@ -259,7 +260,7 @@ fn spec(picture: &Picture, rows: &[&Row], machine: &str) -> PlotSpec {
             series: index,
             shape: (picture.shape)(row),
             at: point(row),
-            label: (picture.label)(row),
+            label: written((picture.label)(row)),
             outlined: row.pareto && !picture.same,
         });
     }
@@ -273,7 +274,7 @@ fn spec(picture: &Picture, rows: &[&Row], machine: &str) -> PlotSpec {
     };
     PlotSpec {
         title: picture.title.to_owned(),
-        x_label: format!("nanoseconds for one {}, {machine}", picture.one),
+        x_label: format!("{time} for one {}, {machine}", picture.one),
         y_label,
         x_log: true,
         y_log: true,
@@ -290,6 +291,22 @@ fn spec(picture: &Picture, rows: &[&Row], machine: &str) -> PlotSpec {
         },
         ..PlotSpec::default()
     }
+}
+
+/// The unit of time in which the shortest is no fraction of a thousandth, and what a nanosecond is
+/// in it.
+fn unit_of_time(rows: &[&Row]) -> (&'static str, f64) {
+    let least = rows.iter().map(|row| row.ns).fold(f64::INFINITY, f64::min);
+    match least {
+        1e5.. => ("milliseconds", 1e-6),
+        1e3.. => ("microseconds", 1e-3),
+        _ => ("nanoseconds", 1.0),
+    }
+}
+
+/// A name as it is printed: sizes with the sign that is not on every keyboard.
+fn written(name: String) -> String {
+    name.replace(" x ", " × ")
 }
 
 /// The points that no other is both left of and below, from left to right.
@@ -370,6 +387,14 @@ mod tests {
             assert!(svg(index).contains(label), "{label}");
         }
         assert!(!svg(0).contains("Pareto front:"));
+    }
+
+    #[test]
+    fn times_are_written_without_powers_of_ten() {
+        let unit_of = |ns| unit_of_time(&[&row("d_ggx", "call", "baseline", ns, 1.0)]).0;
+        assert_eq!(unit_of(0.2), "nanoseconds");
+        assert_eq!(unit_of(2e4), "microseconds");
+        assert_eq!(unit_of(4e5), "milliseconds");
     }
 
     #[test]
