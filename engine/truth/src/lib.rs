@@ -5,11 +5,13 @@
 //! `brdf`: a formula measured against itself in higher precision would agree with its own
 //! mistake. `bench`, `stress` and tests measure against this crate; `brdf` never uses it.
 
+pub mod albedo;
 pub mod bench;
 mod big;
 mod directions;
 mod forms;
 pub mod naive;
+mod quadrature;
 pub mod stress;
 
 pub use big::Big;

@@ -1,6 +1,7 @@
 //! The ways to a directional albedo: quadrature, a table, published fits, and each sampler.
 
 use super::{Effort, Numbers, Row, opaque, time};
+use crate::albedo::correlated;
 use brdf::{
     AlbedoTable, Ggx, Sampler, albedo_ggx, albedo_ggx_karis, albedo_ggx_materialx, f_schlick,
     v_dot_h_and_rest,
@@ -55,7 +56,7 @@ fn metal(effort: Effort) -> Vec<Row> {
     let points = points();
     let truth: Vec<f64> = points
         .iter()
-        .map(|&(mu, alpha)| albedo_ggx(mu, alpha))
+        .map(|&(mu, alpha)| correlated(mu, alpha, |_| 1.0))
         .collect();
     let way = Way {
         group: "albedo",
@@ -66,6 +67,8 @@ fn metal(effort: Effort) -> Vec<Row> {
     let table = AlbedoTable::new(64);
     let single = |x: f64| x as f32;
     let mut rows = vec![
+        way.row("quadrature", |&(mu, alpha)| albedo_ggx(mu, alpha))
+            .in_precision("f64"),
         way.row("quadrature", |&(mu, alpha)| {
             f64::from(albedo_ggx(single(mu), single(alpha)))
         }),
@@ -106,8 +109,8 @@ fn metal(effort: Effort) -> Vec<Row> {
 fn dielectric(effort: Effort) -> Vec<Row> {
     const F0: f64 = 0.04;
     let points = points();
-    // Visible normals at the midpoints of a grid: smooth, and good to 1e-4.
-    let exact = |&(mu, alpha): &Point, side: u32| {
+    // Visible normals at the midpoints of a grid.
+    let by_grid = |&(mu, alpha): &Point, side: u32| {
         let (ggx, v) = (Ggx::new(alpha), view(mu));
         let mut sum = 0.0;
         for i in 0..side {
@@ -121,7 +124,11 @@ fn dielectric(effort: Effort) -> Vec<Row> {
         }
         sum / f64::from(side * side)
     };
-    let truth: Vec<f64> = points.iter().map(|point| exact(point, 300)).collect();
+    let schlick = |v_dot_h: f64| F0 + (1.0 - F0) * (1.0 - v_dot_h).powi(5);
+    let truth: Vec<f64> = points
+        .iter()
+        .map(|&(mu, alpha)| correlated(mu, alpha, schlick))
+        .collect();
     let way = Way {
         group: "albedo_schlick",
         effort,
@@ -129,7 +136,7 @@ fn dielectric(effort: Effort) -> Vec<Row> {
         truth: &truth,
     };
     vec![
-        way.row("bounded cap, 16 x 16", |point| exact(point, 16))
+        way.row("bounded cap, 16 x 16", |point| by_grid(point, 16))
             .in_precision("f64"),
         way.row("fit, MaterialX", |&(mu, alpha)| {
             f64::from(albedo_ggx_materialx(F0 as f32, mu as f32, alpha as f32))

@@ -39,8 +39,9 @@ pub(super) enum Against {
     Drawn(&'static str, Sampler),
     /// The textbook form of that name: of a batch, in single precision only.
     Batch(&'static str),
-    /// The same function in double precision: of a quadrature there is no form.
-    Double,
+    /// The quadrature of that integral which is written here, of another integrand by another rule: of
+    /// an albedo there is no form.
+    Albedo,
 }
 
 impl Subject {
@@ -53,7 +54,7 @@ impl Subject {
             double: term.f64,
             against: match term.name {
                 _ if world => Against::Jitter,
-                "albedo_ggx" | "albedo_ggx_separable" => Against::Double,
+                "albedo_ggx" | "albedo_ggx_separable" => Against::Albedo,
                 _ => Against::Form,
             },
         }
@@ -72,7 +73,7 @@ impl Subject {
 
     /// Whether it can be looked at in that precision.
     pub fn has(&self, precision: Precision) -> bool {
-        precision == Precision::Single || !(self.is_batch() || self.against == Against::Double)
+        precision == Precision::Single || !(self.is_batch() || self.against == Against::Albedo)
     }
 
     /// Whether the rounding of its arguments is allowed for.
@@ -88,7 +89,7 @@ impl Subject {
     /// How much of the effort it is worth: a quadrature is thousands of times a formula.
     pub(super) fn share(&self) -> f64 {
         match self.name {
-            _ if self.against == Against::Double => 0.003,
+            _ if self.against == Against::Albedo => 0.003,
             // A fit for each point.
             "batch_conductor" | "batch_conductor_baseline" => 0.02,
             _ => 1.0,
@@ -115,7 +116,7 @@ impl Subject {
             Against::Form | Against::Jitter => value(self.name, args),
             Against::Drawn(form, sampler) => value(form, &drawn(sampler, precision, args)),
             Against::Batch(form) => value(form, args),
-            Against::Double => Some(Big::new((self.double)(args), 192)),
+            Against::Albedo => crate::albedo::value(self.name, args).map(|e| Big::new(e, 192)),
         }
     }
 
@@ -127,7 +128,7 @@ impl Subject {
             Against::Drawn(form, sampler) => {
                 at_precision(form, &drawn(sampler, Precision::Double, args), BITS)
             }
-            Against::Double => None,
+            Against::Albedo => None,
             Against::Batch(form) => at_precision(form, args, BITS),
             Against::Form | Against::Jitter => at_precision(self.name, args, BITS),
         }
@@ -172,7 +173,7 @@ pub fn subjects() -> &'static [Subject] {
         let inside = |p: &Param| 0.4 * p.range.0 + 0.6 * p.range.1;
         let measurable = |subject: &Subject| {
             let args: Vec<f64> = subject.params.iter().map(inside).collect();
-            subject.against == Against::Double || value(subject.name, &args).is_some()
+            subject.against == Against::Albedo || value(subject.name, &args).is_some()
         };
         let terms = brdf::terms().iter().chain(brdf::vector_terms());
         let mut all: Vec<Subject> = terms.map(Subject::of).filter(measurable).collect();
