@@ -1,9 +1,11 @@
 //! Evaluation of a program over a block of points, chunk by chunk: a chunk's values stay in the
 //! nearest cache from the first step to the last.
 
+use crate::code::Operand;
 use crate::dag::Id;
 use crate::eval::{Real, apply};
-use crate::machine::Machine;
+use crate::machine::{Machine, Placed};
+use crate::memory::Memory;
 use crate::program::{Column, Operations};
 use crate::steps::{Outcome, Slot, Step, Steps};
 use brdf::batch::Isa;
@@ -12,12 +14,8 @@ use std::sync::Arc;
 /// Programs whose steps are kept.
 const KEPT: usize = 8;
 
-/// Slots, and arguments of a function, for which no memory is asked for.
-const USUAL_SLOTS: usize = 48;
+/// Arguments of a function, for which no memory is asked for.
 const USUAL_ARGS: usize = 8;
-
-/// Bytes of a cache line, and of the longest vector.
-const LINE: usize = 64;
 
 /// The steps of the programs evaluated last, and memory for them.
 #[derive(Debug)]
@@ -41,70 +39,165 @@ struct Ready<R> {
     constants: Vec<R>,
     same: Vec<R>,
     memory: Memory<R>,
+    /// Where each slot's values are, and what is parked.
+    slots: Vec<*mut R>,
+    parked: *mut R,
+    /// The code of the runs, in their order; and which operands are with the caller.
+    runs: Vec<Vec<Placed<R>>>,
+    moving: Vec<Moving>,
 }
 
-/// Chunks of values, each on cache lines of its own.
-#[derive(Debug, Default)]
-struct Memory<R> {
-    values: Vec<R>,
-    first: usize,
+/// An operand in an input or a result: which run and instruction, whether it is the second one,
+/// and the slot.
+#[derive(Debug)]
+struct Moving {
+    run: usize,
+    instr: usize,
+    second: bool,
+    slot: usize,
 }
 
-impl<R: Machine> Memory<R> {
-    fn new(chunks: usize) -> Self {
-        let values = vec![R::ZERO; chunks * R::CHUNK + LINE / size_of::<R>()];
-        let first = values
-            .as_ptr()
-            .align_offset(LINE)
-            .min(LINE / size_of::<R>());
-        Memory { values, first }
-    }
-
-    /// All chunks, one after the other.
-    fn chunks(&mut self) -> &mut [R] {
-        &mut self.values[self.first..]
-    }
-}
+// SAFETY: it points to its own memory, or to what it was given for the evaluation under way, for
+// which it is borrowed mutably.
+unsafe impl<R: Send> Send for Ready<R> {}
+// SAFETY: as above; of a shared one nothing is read.
+unsafe impl<R: Sync> Sync for Ready<R> {}
 
 impl<R: Machine> Ready<R> {
-    fn new(operations: &Arc<Operations>, varying: Vec<bool>) -> Self {
+    fn new(operations: &Arc<Operations>, columns: &Columns<'_, R>) -> Self {
+        let varying: Vec<bool> = (0..columns.inputs)
+            .map(|input| matches!(columns.at(input), Column::Varying(_)))
+            .collect();
         let steps = Steps::new(&operations.ops, &operations.roots, &varying);
-        // One chunk a slot, whether it is needed or the caller's own memory is used.
-        let memory = Memory::new(steps.slots.len());
-        Ready {
+        // One chunk a slot, whether it is needed or the caller's own memory is used, and one for
+        // what is parked.
+        let memory = Memory::new(steps.slots.len() + 1);
+        let mut ready = Ready {
             operations: operations.clone(),
             varying,
-            steps,
-            constants: Vec::new(),
-            same: Vec::new(),
+            slots: (0..steps.slots.len())
+                .map(|slot| memory.chunk(slot))
+                .collect(),
+            parked: memory.chunk(steps.slots.len()),
             memory,
+            constants: Vec::new(),
+            same: vec![R::ZERO; operations.ops.len()],
+            runs: Vec::new(),
+            moving: Vec::new(),
+            steps,
+        };
+        ready.place();
+        ready.fix(columns);
+        ready
+    }
+
+    fn fits(&self, operations: &Arc<Operations>, columns: &Columns<'_, R>) -> bool {
+        let varies = |input| matches!(columns.at(input), Column::Varying(_));
+        Arc::ptr_eq(&self.operations, operations)
+            && self.varying.len() == columns.inputs
+            && self
+                .varying
+                .iter()
+                .enumerate()
+                .all(|(input, varying)| *varying == varies(input))
+    }
+
+    /// Puts pointers for numbers of slots.
+    fn place(&mut self) {
+        for step in &self.steps.steps {
+            let Step::Run(code) = step else {
+                continue;
+            };
+            let mut placed = Vec::with_capacity(code.len());
+            for (index, instr) in code.iter().enumerate() {
+                let mut pointer = |operand, second| match operand {
+                    Operand::Slot(slot) => {
+                        if let Slot::Input(_) | Slot::Result(_) = self.steps.slots[slot] {
+                            self.moving.push(Moving {
+                                run: self.runs.len(),
+                                instr: index,
+                                second,
+                                slot,
+                            });
+                        }
+                        self.slots[slot]
+                    }
+                    Operand::None | Operand::Same(_) => std::ptr::null_mut(),
+                };
+                placed.push(Placed {
+                    code: instr.code,
+                    power: instr.power,
+                    value: R::ZERO,
+                    at: pointer(instr.at, false),
+                    with: pointer(instr.with, true),
+                });
+            }
+            self.runs.push(placed);
         }
     }
 
     /// Computes what is the same at all points, unless it is what it was.
-    fn fix(&mut self, constants: Vec<R>) {
-        let known = self.constants.len() == constants.len()
+    fn fix(&mut self, columns: &Columns<'_, R>) {
+        let known = self.constants.len() == columns.inputs
             && self
                 .constants
                 .iter()
-                .zip(&constants)
-                .all(|(a, b)| same_bits(*a, *b));
-        if known && !self.same.is_empty() {
+                .enumerate()
+                .all(|(input, known)| same_bits(*known, columns.constant(input)));
+        if known {
             return;
         }
+        self.constants.clear();
+        self.constants
+            .extend((0..columns.inputs).map(|input| columns.constant(input)));
         let ops = &self.operations.ops;
-        self.same = vec![R::ZERO; ops.len()];
         for id in &self.steps.same {
-            self.same[*id] = apply(&ops[*id], &constants, |id: Id| self.same[id]);
+            self.same[*id] = apply(&ops[*id], &self.constants, |id: Id| self.same[id]);
         }
-        self.constants = constants;
-        for (index, slot) in self.steps.slots.iter().enumerate() {
+        for (slot, pointer) in self.steps.slots.iter().zip(&self.slots) {
             if let Slot::Same(id) = slot {
-                let chunk = self.memory.chunks().chunks_mut(R::CHUNK).nth(index);
-                chunk
-                    .into_iter()
-                    .for_each(|chunk| chunk.fill(self.same[*id]));
+                // SAFETY: the slot is a chunk of our own, and nobody else uses it.
+                unsafe { slice_mut(*pointer, R::CHUNK) }.fill(self.same[*id]);
             }
+        }
+        let runs = self.steps.steps.iter().filter_map(|step| match step {
+            Step::Run(code) => Some(code),
+            _ => None,
+        });
+        for (code, placed) in runs.zip(&mut self.runs) {
+            for (instr, placed) in code.iter().zip(placed) {
+                if let Operand::Same(id) = instr.at {
+                    placed.value = self.same[id];
+                }
+                if let Operand::Same(id) = instr.with {
+                    placed.value = self.same[id];
+                }
+            }
+        }
+    }
+}
+
+/// The inputs of an evaluation.
+struct Columns<'a, R> {
+    given: &'a [Column<'a, R>],
+    inputs: usize,
+    count: usize,
+}
+
+impl<'a, R: Real> Columns<'a, R> {
+    /// NaN where one is missing or too short.
+    fn at(&self, input: usize) -> Column<'a, R> {
+        match self.given.get(input) {
+            Some(Column::Varying(values)) if values.len() >= self.count => Column::Varying(values),
+            Some(Column::Uniform(value)) => Column::Uniform(*value),
+            _ => Column::Uniform(R::of(f64::NAN)),
+        }
+    }
+
+    fn constant(&self, input: usize) -> R {
+        match self.at(input) {
+            Column::Uniform(value) => value,
+            Column::Varying(_) => R::of(f64::NAN),
         }
     }
 }
@@ -112,9 +205,8 @@ impl<R: Machine> Ready<R> {
 /// What is to be evaluated.
 pub(crate) struct Block<'a, 'o, R> {
     operations: &'a Arc<Operations>,
-    columns: Vec<Column<'a, R>>,
+    columns: Columns<'a, R>,
     outs: &'a mut [&'o mut [R]],
-    count: usize,
     isa: Isa,
 }
 
@@ -127,42 +219,31 @@ impl<'a, 'o, R: Machine> Block<'a, 'o, R> {
         isa: Isa,
     ) -> Self {
         let count = outs.iter().map(|out| out.len()).max().unwrap_or(0);
-        let missing = Column::Uniform(R::of(f64::NAN));
-        let columns = (0..inputs)
-            .map(|index| match columns.get(index) {
-                Some(Column::Varying(values)) if values.len() < count => missing,
-                Some(column) => *column,
-                None => missing,
-            })
-            .collect();
         Block {
             operations,
-            columns,
+            columns: Columns {
+                given: columns,
+                inputs,
+                count,
+            },
             outs,
-            count,
             isa,
         }
     }
 
     pub fn run(mut self, blocks: &mut Blocks<R>) {
-        let varying = |column: &Column<R>| matches!(column, Column::Varying(_));
-        let varying: Vec<bool> = self.columns.iter().map(varying).collect();
-        let known = blocks.ready.iter().position(|ready| {
-            Arc::ptr_eq(&ready.operations, self.operations) && ready.varying == varying
-        });
+        let fits = |ready: &Ready<R>| ready.fits(self.operations, &self.columns);
+        let known = blocks.ready.iter().position(fits);
         let index = known.unwrap_or_else(|| {
             if blocks.ready.len() == KEPT {
                 blocks.ready.remove(0);
             }
-            blocks.ready.push(Ready::new(self.operations, varying));
+            let ready = Ready::new(self.operations, &self.columns);
+            blocks.ready.push(ready);
             blocks.ready.len() - 1
         });
-        let constants = self.columns.iter().map(|column| match column {
-            Column::Uniform(value) => *value,
-            Column::Varying(_) => R::of(f64::NAN),
-        });
         let ready = &mut blocks.ready[index];
-        ready.fix(constants.collect());
+        ready.fix(&self.columns);
         for (out, outcome) in self.outs.iter_mut().zip(&ready.steps.results) {
             if let Outcome::Same(id) = outcome {
                 out.fill(ready.same[*id]);
@@ -171,59 +252,64 @@ impl<'a, 'o, R: Machine> Block<'a, 'o, R> {
         // A root that nobody asked for takes no slice; the program still computes it.
         let varies = |outcome: &Outcome| !matches!(outcome, Outcome::Same(_));
         if ready.steps.results.iter().any(varies) {
-            for start in (0..self.count).step_by(R::CHUNK) {
+            for start in (0..self.columns.count).step_by(R::CHUNK) {
+                self.place(ready, start);
                 self.chunk(ready, start);
             }
         }
     }
 
-    fn chunk(&mut self, ready: &mut Ready<R>, start: usize) {
-        let count = (self.count - start).min(R::CHUNK);
+    /// Says where a chunk's values are: with the caller where the chunk is whole, so that nothing
+    /// is copied, else in memory of our own, where a tile may reach beyond the last point.
+    fn place(&mut self, ready: &mut Ready<R>, start: usize) {
+        let count = (self.columns.count - start).min(R::CHUNK);
         let whole = count == R::CHUNK;
-        let Ready {
-            steps,
-            same,
-            memory,
-            ..
-        } = ready;
-        // Where a slot's values are: with the caller where the chunk is whole, so that nothing
-        // is copied, else in memory of our own, where a tile may reach beyond the last point.
-        let (mut usual, mut many) = ([std::ptr::null_mut(); USUAL_SLOTS], Vec::new());
-        let slots: &mut [*mut R] = match usual.get_mut(..steps.slots.len()) {
-            Some(usual) => usual,
-            None => {
-                many.resize(steps.slots.len(), std::ptr::null_mut());
-                &mut many
-            }
-        };
-        let own = memory.chunks().chunks_exact_mut(R::CHUNK);
-        for ((place, slot), own) in slots.iter_mut().zip(&steps.slots).zip(own) {
-            *place = match *slot {
-                Slot::Temporary | Slot::Same(_) => own.as_mut_ptr(),
-                Slot::Input(input) => match self.columns[input] {
-                    // Only read from: an input's slot is never one that is stored to.
+        for (index, slot) in ready.steps.slots.iter().enumerate() {
+            ready.slots[index] = match *slot {
+                Slot::Temporary | Slot::Same(_) => continue,
+                // Only read from: an input's slot is never one that is stored to.
+                Slot::Input(input) => match self.columns.at(input) {
                     Column::Varying(values) if whole => values[start..].as_ptr().cast_mut(),
                     Column::Varying(values) => {
-                        own[..count].copy_from_slice(&values[start..start + count]);
-                        own.as_mut_ptr()
+                        let own = ready.memory.chunk(index);
+                        // SAFETY: a chunk of our own has room for them, and nobody else uses it.
+                        unsafe { slice_mut(own, count) }
+                            .copy_from_slice(&values[start..start + count]);
+                        own
                     }
-                    Column::Uniform(_) => own.as_mut_ptr(),
+                    Column::Uniform(_) => ready.memory.chunk(index),
                 },
                 Slot::Result(result) => match self.outs.get_mut(result) {
                     Some(out) if whole && out.len() >= start + count => out[start..].as_mut_ptr(),
-                    _ => own.as_mut_ptr(),
+                    _ => ready.memory.chunk(index),
                 },
             };
         }
-        let slots = &*slots;
-        let at = |slot: usize| slots[slot];
-        for step in &steps.steps {
+        for moving in &ready.moving {
+            let placed = &mut ready.runs[moving.run][moving.instr];
+            let operand = match moving.second {
+                false => &mut placed.at,
+                true => &mut placed.with,
+            };
+            *operand = ready.slots[moving.slot];
+        }
+    }
+
+    fn chunk(&mut self, ready: &Ready<R>, start: usize) {
+        let count = (self.columns.count - start).min(R::CHUNK);
+        let at = |slot: usize| ready.slots[slot];
+        let mut runs = ready.runs.iter();
+        for step in &ready.steps.steps {
             // SAFETY: every slot points to a chunk of values: inputs, results and memory of our
-            // own, none of which overlap; slots and values are numbered by the planner. A step
-            // reads and writes different slots, as the planner takes care.
+            // own, none of which overlap; they are numbered by the planner. A step reads and
+            // writes different slots, as the planner takes care.
             unsafe {
                 match step {
-                    Step::Run(code) => R::run(self.isa, code, slots, same, count),
+                    Step::Run(_) => {
+                        if let Some(code) = runs.next() {
+                            R::run(self.isa, code, ready.parked, count);
+                        }
+                    }
                     Step::Unary(function, from, to) => {
                         let (from, to) = (slice(at(*from), count), slice_mut(at(*to), count));
                         for (to, from) in to.iter_mut().zip(from) {
@@ -240,7 +326,7 @@ impl<'a, 'o, R: Machine> Block<'a, 'o, R> {
                     }
                     Step::Term(term, args, to) => {
                         // Of what is the same everywhere one value may do.
-                        let one = steps.of_material(term.0, args);
+                        let one = ready.steps.of_material(term.0, args);
                         let arg = |(slot, param): (&usize, &brdf::Param)| {
                             let one = one && param.is_of_material();
                             slice(at(*slot), if one { 1 } else { count })
@@ -261,7 +347,7 @@ impl<'a, 'o, R: Machine> Block<'a, 'o, R> {
                 }
             }
         }
-        for (out, outcome) in self.outs.iter_mut().zip(&steps.results) {
+        for (out, outcome) in self.outs.iter_mut().zip(&ready.steps.results) {
             let end = out.len().min(start + count);
             if let (Outcome::Held(slot), Some(out)) = (outcome, out.get_mut(start..end))
                 && !std::ptr::eq(at(*slot), out.as_ptr())

@@ -15,8 +15,10 @@ pub(crate) trait Lanes: Copy {
     type Real: Real;
     /// Values in a vector.
     const WIDTH: usize;
-    /// Vectors in a tile: half of the registers that there are.
+    /// Vectors in a tile: half of the registers that there are, or less.
     const TILE: usize;
+    /// Whether there are registers for a second tile.
+    const PARKS: bool;
     /// Reads [`Lanes::WIDTH`] values, which must be there.
     unsafe fn load(from: *const Self::Real) -> Self;
     /// Writes [`Lanes::WIDTH`] values, for which there must be room.
@@ -60,6 +62,7 @@ impl<R: Real> Lanes for Plain<R> {
     type Real = R;
     const WIDTH: usize = 4;
     const TILE: usize = 8;
+    const PARKS: bool = false;
     #[inline(always)]
     unsafe fn load(from: *const R) -> Self {
         // SAFETY: the caller promises four values.
@@ -127,7 +130,8 @@ mod x86 {
          $div:ident, $sqrt:ident, $andnot:ident, $xor:ident) => {
             type Real = $real;
             const WIDTH: usize = size_of::<Self>() / size_of::<$real>();
-            const TILE: usize = if size_of::<Self>() == 64 { 16 } else { 8 };
+            const TILE: usize = 8;
+            const PARKS: bool = size_of::<Self>() == 64;
             #[inline(always)]
             unsafe fn load(from: *const $real) -> Self {
                 // SAFETY: the caller promises the values and the instruction.

@@ -2,9 +2,10 @@
 //! a function called between them.
 
 use crate::builtin::Builtin;
+use crate::code::{Code, Inner, Instr, Operand, Outer, pair};
 use crate::dag::{Id, Op, TermRef};
 use crate::expr::CompareOp;
-use crate::machine::{Code, Inner, Instr, Outer, pair};
+use crate::schedule::{Schedule, is_called};
 
 /// Where a chunk of values lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,26 +59,30 @@ fn swapped(op: CompareOp) -> CompareOp {
     }
 }
 
-/// What the machine does with its register on the left of an operation and on the right, with a
-/// slot and with a value that is the same everywhere.
-fn binary(op: &Op) -> Option<(Id, Id, [Code; 4])> {
+/// What the machine does with its register and a slot, a value that is the same everywhere, or
+/// what is parked.
+type Codes = [Code; 3];
+
+/// What the machine does with its register on the left of an operation and on the right.
+fn binary(op: &Op) -> Option<(Id, Id, [Codes; 2])> {
     use Code::*;
+    let both = |codes: Codes| [codes, codes];
     Some(match *op {
-        Op::Add(a, b) => (a, b, [Add, AddSame, Add, AddSame]),
-        Op::Sub(a, b) => (a, b, [Sub, SubSame, SubFrom, SubFromSame]),
-        Op::Mul(a, b) => (a, b, [Mul, MulSame, Mul, MulSame]),
-        Op::Div(a, b) => (a, b, [Div, DivSame, DivInto, DivIntoSame]),
-        Op::Min(a, b) => (a, b, [Least, LeastSame, Least, LeastSame]),
-        Op::Max(a, b) => (a, b, [Most, MostSame, Most, MostSame]),
+        Op::Add(a, b) => (a, b, both([Add, AddSame, AddParked])),
+        Op::Mul(a, b) => (a, b, both([Mul, MulSame, MulParked])),
+        Op::Min(a, b) => (a, b, both([Least, LeastSame, LeastParked])),
+        Op::Max(a, b) => (a, b, both([Most, MostSame, MostParked])),
+        Op::Sub(a, b) => {
+            let right = [SubFrom, SubFromSame, SubFromParked];
+            (a, b, [[Sub, SubSame, SubParked], right])
+        }
+        Op::Div(a, b) => {
+            let right = [DivInto, DivIntoSame, DivIntoParked];
+            (a, b, [[Div, DivSame, DivParked], right])
+        }
         Op::Compare(op, a, b) => {
-            let turned = swapped(op);
-            let codes = [
-                Compare(op),
-                CompareSame(op),
-                Compare(turned),
-                CompareSame(turned),
-            ];
-            (a, b, codes)
+            let codes = |op| [Compare(op), CompareSame(op), CompareParked(op)];
+            (a, b, [codes(op), codes(swapped(op))])
         }
         _ => return None,
     })
@@ -85,11 +90,7 @@ fn binary(op: &Op) -> Option<(Id, Id, [Code; 4])> {
 
 /// What the machine does with its register alone.
 fn unary(op: &Op) -> Option<(Id, Vec<Instr>)> {
-    let plain = |code| Instr {
-        code,
-        at: 0,
-        with: 0,
-    };
+    let plain = Instr::new;
     Some(match *op {
         Op::Neg(a) => (a, vec![plain(Code::Neg)]),
         Op::Unary(Builtin::Sqrt, a) => (a, vec![plain(Code::Sqrt)]),
@@ -99,15 +100,8 @@ fn unary(op: &Op) -> Option<(Id, Vec<Instr>)> {
         Op::PowInt(a, 4) => (a, vec![plain(Code::Square); 2]),
         Op::PowInt(a, 5) => (a, vec![plain(Code::Fifth)]),
         Op::PowInt(a, power) => {
-            // A whole exponent is small: the language says so.
-            let at = (power as i16).cast_unsigned();
-            (
-                a,
-                vec![Instr {
-                    at,
-                    ..plain(Code::Power)
-                }],
-            )
+            let code = plain(Code::Power);
+            (a, vec![Instr { power, ..code }])
         }
         // One value used twice needs no second reading.
         Op::Mul(a, b) if a == b => (a, vec![plain(Code::Square)]),
@@ -130,88 +124,69 @@ fn outer(op: &Op) -> Option<(Id, Id, [Outer; 2])> {
 fn inner(op: &Op) -> Option<(Id, Id, [Inner; 3])> {
     use Inner::*;
     Some(match *op {
+        Op::PowInt(a, 2) => (a, a, [Square; 3]),
+        Op::Mul(a, b) if a == b => (a, a, [Square; 3]),
         Op::Add(a, b) => (a, b, [Add, AddSame, AddSame]),
         Op::Sub(a, b) => (a, b, [Sub, SubSame, SubFromSame]),
         Op::Mul(a, b) => (a, b, [Mul, MulSame, MulSame]),
         Op::Div(a, b) => (a, b, [Div, DivSame, DivIntoSame]),
-        Op::PowInt(a, 2) => (a, a, [Mul; 3]),
         _ => return None,
     })
 }
 
 struct Planner<'a> {
     ops: &'a [Op],
-    /// Whether an operation is the same at all points.
-    same: Vec<bool>,
-    /// How often an operation's value is read, and by which operation last.
-    reads: Vec<u32>,
-    last_read: Vec<Id>,
-    /// The pair that an operation computes on its way, and whether an operation is such a pair.
-    pair: Vec<Option<Id>>,
-    absorbed: Vec<bool>,
+    schedule: Schedule,
     /// The slot that holds an operation's value.
     held: Vec<Option<usize>>,
     slots: Vec<Slot>,
     free: Vec<usize>,
     steps: Vec<Step>,
     run: Vec<Instr>,
-    /// The operation whose value the machine's register holds.
+    /// The operations whose values the machine holds.
     register: Option<Id>,
+    parked: Option<Id>,
 }
 
 impl Steps {
     /// Plans the evaluation of `roots`, with `varying` telling which inputs differ from point
     /// to point.
     pub fn new(ops: &[Op], roots: &[Id], varying: &[bool]) -> Steps {
-        let mut same = Vec::with_capacity(ops.len());
-        for op in ops {
-            same.push(match op {
-                Op::Input(index) => !varying.get(*index).copied().unwrap_or(false),
-                _ => op.operands().iter().all(|id| same[*id]),
-            });
-        }
+        let simple = |id: Id| inner(&ops[id]).map(|(a, b, _)| (a, b));
+        let schedule = Schedule::new(ops, roots, varying, simple);
         let mut planner = Planner {
             ops,
-            reads: vec![0; ops.len()],
-            last_read: vec![0; ops.len()],
-            pair: vec![None; ops.len()],
-            absorbed: vec![false; ops.len()],
             held: vec![None; ops.len()],
             slots: Vec::new(),
             free: Vec::new(),
             steps: Vec::new(),
             run: Vec::new(),
             register: None,
-            same,
+            parked: None,
+            schedule,
         };
-        planner.count_reads(roots);
-        planner.find_pairs();
         let mut results = Vec::new();
         for (index, root) in roots.iter().enumerate() {
-            results.push(match (planner.same[*root], &ops[*root]) {
+            results.push(match (planner.schedule.same[*root], &ops[*root]) {
                 (true, _) => Outcome::Same(*root),
                 (false, Op::Input(_)) => Outcome::Held(planner.slot(*root)),
                 (false, _) => Outcome::Held(planner.result(*root, index)),
             });
         }
-        let order: Vec<Id> = (0..ops.len())
-            .filter(|id| !planner.same[*id] && !planner.absorbed[*id])
-            .filter(|id| !matches!(ops[*id], Op::Input(_)))
-            .collect();
+        let order = std::mem::take(&mut planner.schedule.order);
         for (place, id) in order.iter().enumerate() {
-            planner.operation(*id, order.get(place + 1).copied());
+            planner.operation(*id, &order[place + 1..]);
         }
         planner.end_run();
+        let same = &planner.schedule.same;
         Steps {
             steps: planner.steps,
             slots: planner.slots,
             results,
-            same: (0..ops.len()).filter(|id| planner.same[*id]).collect(),
+            same: (0..ops.len()).filter(|id| same[*id]).collect(),
         }
     }
-}
 
-impl Steps {
     /// Whether those of a function's arguments that are of the material are the same everywhere.
     pub fn of_material(&self, term: &brdf::Term, args: &[usize]) -> bool {
         let mut args = args.iter().zip(term.params);
@@ -222,69 +197,6 @@ impl Steps {
 }
 
 impl Planner<'_> {
-    fn count_reads(&mut self, roots: &[Id]) {
-        for (id, op) in self.ops.iter().enumerate() {
-            if !self.same[id] {
-                let mut operands = op.operands();
-                // One value used twice by one operation is read once.
-                operands.dedup();
-                operands
-                    .iter()
-                    .for_each(|operand| self.reads[*operand] += 1);
-            }
-        }
-        // A result is not passed on unseen.
-        roots.iter().for_each(|root| self.reads[*root] += 2);
-    }
-
-    /// Whether an operation's value lies in memory or is the same everywhere.
-    fn leaf(&self, id: Id) -> bool {
-        self.same[id] || self.reads[id] > 1 || matches!(self.ops[id], Op::Input(_))
-    }
-
-    /// Finds operations on values in memory that are read once, by arithmetic: they are done
-    /// together with it. Then notes which operation reads each value last.
-    fn find_pairs(&mut self) {
-        for (id, op) in self
-            .ops
-            .iter()
-            .enumerate()
-            .filter(|(id, _)| !self.same[*id])
-        {
-            let Some((a, b, _)) = outer(op) else {
-                continue;
-            };
-            let pair = [b, a].into_iter().find(|pair| {
-                let operands = inner(&self.ops[*pair]);
-                let leaves = operands.is_some_and(|(a, b, _)| self.leaf(a) && self.leaf(b));
-                // What has a pair itself is more than one.
-                let simple = self.pair[*pair].is_none();
-                a != b && leaves && simple && !self.leaf(*pair)
-            });
-            if let Some(pair) = pair {
-                self.pair[id] = Some(pair);
-                self.absorbed[pair] = true;
-            }
-        }
-        for id in (0..self.ops.len()).filter(|id| !self.same[*id] && !self.absorbed[*id]) {
-            for operand in self.operands(id) {
-                self.last_read[operand] = id;
-            }
-        }
-    }
-
-    /// What an operation reads, through the pair that it computes on its way.
-    fn operands(&self, id: Id) -> Vec<Id> {
-        let mut operands = self.ops[id].operands();
-        if let Some(pair) = self.pair[id] {
-            operands.retain(|operand| *operand != pair);
-            operands.extend(self.ops[pair].operands());
-        }
-        operands.sort_unstable();
-        operands.dedup();
-        operands
-    }
-
     fn hold(&mut self, id: Id, slot: Slot) -> usize {
         self.slots.push(slot);
         self.held[id] = Some(self.slots.len() - 1);
@@ -300,7 +212,7 @@ impl Planner<'_> {
     fn slot(&mut self, id: Id) -> usize {
         match (self.held[id], &self.ops[id]) {
             (Some(slot), _) => slot,
-            (None, _) if self.same[id] => self.hold(id, Slot::Same(id)),
+            (None, _) if self.schedule.same[id] => self.hold(id, Slot::Same(id)),
             (None, Op::Input(index)) => self.hold(id, Slot::Input(*index)),
             // Not reached: what is read from memory was kept.
             (None, _) => self.keep(id),
@@ -322,8 +234,8 @@ impl Planner<'_> {
 
     /// Frees what is not read any more.
     fn release(&mut self, id: Id) {
-        for operand in self.operands(id) {
-            if self.last_read[operand] == id
+        for operand in self.schedule.operands(self.ops, id) {
+            if self.schedule.last_read[operand] == id
                 && let Some(slot) = self.held[operand]
                 && self.slots[slot] == Slot::Temporary
             {
@@ -339,37 +251,30 @@ impl Planner<'_> {
         self.register = None;
     }
 
-    fn push(&mut self, code: Code, at: usize) {
-        self.push_pair(code, at, 0);
+    /// Where the machine finds a value that is not in its register.
+    fn operand(&mut self, id: Id) -> Operand {
+        match self.schedule.same[id] {
+            true => Operand::Same(id),
+            false => Operand::Slot(self.slot(id)),
+        }
     }
 
-    fn push_pair(&mut self, code: Code, at: usize, with: usize) {
-        // A program has far fewer operations, and so fewer slots.
-        let (at, with) = (at as u16, with as u16);
-        self.run.push(Instr { code, at, with });
+    /// One of three instructions, as it depends on where the other operand is.
+    fn push(&mut self, [slot, same, parked]: Codes, id: Id) {
+        if self.parked == Some(id) {
+            self.parked = None;
+            return self.run.push(Instr::new(parked));
+        }
+        let at = self.operand(id);
+        let code = if self.schedule.same[id] { same } else { slot };
+        self.run.push(Instr::new(code).at(at));
     }
 
     /// Brings a value into the register.
     fn load(&mut self, id: Id) {
-        if self.register == Some(id) {
-            return;
+        if self.register != Some(id) {
+            self.push([Code::Load, Code::LoadSame, Code::LoadParked], id);
         }
-        if self.same[id] {
-            self.push(Code::LoadSame, id);
-        } else {
-            let slot = self.slot(id);
-            self.push(Code::Load, slot);
-        }
-    }
-
-    /// An operation with a pair, which is loaded with it.
-    fn with_pair(&mut self, id: Id, pair: Id) {
-        let Some((a, b, [right, left])) = outer(&self.ops[id]) else {
-            return;
-        };
-        let (first, outer) = if b == pair { (a, right) } else { (b, left) };
-        self.load(first);
-        self.pair(pair, outer);
     }
 
     /// What is done with an operation on values in memory as a pair.
@@ -377,80 +282,110 @@ impl Planner<'_> {
         let Some((m, n, [slots, same_right, same_left])) = inner(&self.ops[id]) else {
             return;
         };
-        let (inner, m, n) = match (self.same[m], self.same[n]) {
+        let same = &self.schedule.same;
+        let (inner, m, n) = match (same[m], same[n]) {
             (true, _) => (same_left, n, m),
             (false, true) => (same_right, m, n),
             (false, false) => (slots, m, n),
         };
-        let with = if self.same[n] { n } else { self.slot(n) };
-        let at = self.slot(m);
-        self.push_pair(pair(outer, inner), at, with);
+        let (at, with) = (self.operand(m), self.operand(n));
+        let code = Instr::new(pair(outer, inner)).at(at);
+        self.run.push(Instr { with, ..code });
+    }
+
+    /// An operation with a pair, which is loaded with it. One whose other operand is the same
+    /// everywhere begins with the pair.
+    fn with_pair(&mut self, id: Id, pair: Id) {
+        let Some((a, b, [right, left])) = outer(&self.ops[id]) else {
+            return;
+        };
+        let (first, outer) = if b == pair { (a, right) } else { (b, left) };
+        if self.schedule.same[first] {
+            self.pair(pair, Outer::Only);
+            self.register = Some(pair);
+            self.with_register(id);
+        } else {
+            self.load(first);
+            self.pair(pair, outer);
+        }
+    }
+
+    /// An operation of two operands, one of which comes into the register if none is there.
+    fn with_register(&mut self, id: Id) {
+        let Some((a, b, [left, right])) = binary(&self.ops[id]) else {
+            return;
+        };
+        let held = |id: Id| self.register == Some(id);
+        // What is in the register stays there; else what varies, and was not parked, comes in.
+        let from_right = held(b) && !held(a);
+        let waits = |id: Id| self.schedule.same[id] || self.parked == Some(id);
+        let from_right = from_right || (waits(a) && !waits(b) && !held(a));
+        let (first, second, codes) = match from_right {
+            true => (b, a, right),
+            false => (a, b, left),
+        };
+        self.load(first);
+        self.push(codes, second);
     }
 
     /// Whether an operation's operands lie in memory, or one of them is the same everywhere, and
     /// it can begin a chain. One value used twice is better loaded once.
     fn begins(&self, id: Id) -> bool {
-        let free = |operand: Id| self.register != Some(operand);
-        inner(&self.ops[id]).is_some_and(|(a, b, _)| a != b && free(a) && free(b))
+        let free = |operand: Id| self.register != Some(operand) && self.parked != Some(operand);
+        inner(&self.ops[id]).is_some_and(|(a, b, _)| free(a) && free(b))
     }
 
-    fn operation(&mut self, id: Id, next: Option<Id>) {
-        if let Some(pair) = self.pair[id] {
+    /// Plans an operation; `after` are those that come later.
+    fn operation(&mut self, id: Id, after: &[Id]) {
+        if is_called(&self.ops[id]) {
+            return self.call(id);
+        }
+        if let Some(pair) = self.schedule.pair[id] {
             self.with_pair(id, pair);
         } else if self.begins(id) {
             self.pair(id, Outer::Only);
         } else if let Some((operand, code)) = unary(&self.ops[id]) {
             self.load(operand);
             self.run.extend(code);
-        } else if let Some((a, b, [left, left_same, right, right_same])) = binary(&self.ops[id]) {
-            // What is in the register stays there; else what varies comes in.
-            let from_right = self.register == Some(b) && self.register != Some(a);
-            let from_right = from_right || (self.same[a] && !self.same[b]);
-            let (first, second, code, code_same) = match from_right {
-                true => (b, a, right, right_same),
-                false => (a, b, left, left_same),
-            };
-            self.load(first);
-            if self.same[second] {
-                self.push(code_same, second);
-            } else {
-                let slot = self.slot(second);
-                self.push(code, slot);
-            }
         } else {
-            self.end_run();
-            let operands: Vec<usize> = self.ops[id].operands();
-            let operands: Vec<usize> = operands.into_iter().map(|id| self.slot(id)).collect();
-            // A function never writes where it reads: its slot is taken before any is freed.
-            let to = self.keep(id);
-            self.steps.push(match (&self.ops[id], operands.as_slice()) {
-                (Op::Unary(function, _), [from]) => Step::Unary(*function, *from, to),
-                (Op::Pow(..), [base, exponent]) => Step::Pow(*base, *exponent, to),
-                (Op::Term(term, _), _) => Step::Term(*term, operands, to),
-                // Not reached: these are all that are neither of the machine nor inputs.
-                _ => return,
-            });
-            self.release(id);
-            return;
+            self.with_register(id);
         }
         self.register = Some(id);
         self.release(id);
         // The next operation may take it from the register, if it is the only one to read it.
-        let passed_on = next.is_some_and(|next| self.takes(next, id));
-        if self.reads[id] > 1 || !passed_on {
+        let reads = |next: &Id| self.schedule.takes(self.ops, *next, id);
+        let once = self.schedule.reads[id] == 1;
+        if once && after.first().is_some_and(reads) {
+            return;
+        }
+        // A later one finds it parked, unless a function is called in between.
+        let mut run = after
+            .iter()
+            .take_while(|next| !is_called(&self.ops[**next]));
+        if once && self.parked.is_none() && run.any(reads) {
+            self.parked = Some(id);
+            self.run.push(Instr::new(Code::Park));
+        } else {
             let slot = self.keep(id);
-            self.push(Code::Store, slot);
+            self.run
+                .push(Instr::new(Code::Store).at(Operand::Slot(slot)));
         }
     }
 
-    /// Whether an operation of the machine takes this value from the register.
-    fn takes(&self, next: Id, id: Id) -> bool {
-        if self.pair[next].is_some() {
-            return outer(&self.ops[next]).is_some_and(|(a, b, _)| a == id || b == id);
-        }
-        if let Some((operand, _)) = unary(&self.ops[next]) {
-            return operand == id;
-        }
-        binary(&self.ops[next]).is_some_and(|(a, b, _)| a == id || b == id)
+    /// Calls a function for the whole chunk.
+    fn call(&mut self, id: Id) {
+        self.end_run();
+        let operands: Vec<usize> = self.ops[id].operands();
+        let operands: Vec<usize> = operands.into_iter().map(|id| self.slot(id)).collect();
+        // A function never writes where it reads: its slot is taken before any is freed.
+        let to = self.keep(id);
+        self.steps.push(match (&self.ops[id], operands.as_slice()) {
+            (Op::Unary(function, _), [from]) => Step::Unary(*function, *from, to),
+            (Op::Pow(..), [base, exponent]) => Step::Pow(*base, *exponent, to),
+            (Op::Term(term, _), _) => Step::Term(*term, operands, to),
+            // Not reached: these are all that are neither of the machine nor inputs.
+            _ => return,
+        });
+        self.release(id);
     }
 }

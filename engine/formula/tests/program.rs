@@ -100,6 +100,18 @@ fn blocks_are_points() {
         "n_dot_h * n_dot_l * n_dot_v * (n_dot_h * n_dot_l)",
         "(n_dot_h * n_dot_l) * (n_dot_v * f0) * (roughness * roughness + 2 * roughness)",
         "n_dot_h * n_dot_l - n_dot_h * n_dot_l * roughness^2",
+        // One value on both sides.
+        "(n_dot_h * n_dot_l + f0) + (n_dot_h * n_dot_l + f0)",
+        "sqrt(f0) - sqrt(f0) + min(n_dot_h^3, n_dot_h^3) * (n_dot_l^3 <= n_dot_l^3)",
+        "(n_dot_h^3 / n_dot_h^3) * (n_dot_l^3 * n_dot_l^3)",
+        // More chains at once than the machine holds, and operands that wait on either side.
+        "((f0 + 1)^3 - (n_dot_h + 1)^3) / ((n_dot_l + 1)^3 - (n_dot_v + 2)^3)",
+        "(((f0 + 1)^3 - (n_dot_h + 1)^3) / ((n_dot_l + 1)^3 - (n_dot_v + 2)^3) \
+            - ((f0 + 2)^3 - (n_dot_h + 2)^3) / ((n_dot_l + 3)^3 - (n_dot_v + 4)^3)) \
+            / (((f0 + 3)^3 + (n_dot_h + 5)^3) * ((n_dot_l + 6)^3 - (n_dot_v + 9)^3))",
+        "sqrt(f0 + 1) - cos(n_dot_h^3) / sqrt(n_dot_l + 2) + d_ggx(n_dot_h = sqrt(n_dot_v)) * 2",
+        "max(sqrt(n_dot_l), sqrt(n_dot_v)) - min(n_dot_h^3 + 1, f0^3 + 1) * -abs(f0 - 2)",
+        "(sqrt(n_dot_l) < sqrt(n_dot_v)) + (n_dot_h^3 > f0^3) * 2 + roughness / (2 * n_dot_h)",
     ] {
         check(text);
     }

@@ -2,9 +2,10 @@
 
 mod common;
 
+use brdf::batch::Isa;
 use common::{library, module, valid, values};
 use formula::{
-    Column, Digits, Expr, Library, Scratch, agrees_with_printed, format_number, parse,
+    Column, Digits, Expr, Library, Program, Scratch, agrees_with_printed, format_number, parse,
     parse_answer, significant_digits,
 };
 use proptest::prelude::*;
@@ -49,6 +50,34 @@ fn use_up(library: &Library, expr: &Expr) {
         program.eval_block_f64(&inputs, &mut out, &mut Scratch::new());
         if let Ok(value) = library.eval(expr, &given) {
             assert_eq!(out[0] + 0.0, value, "{expr}");
+        }
+        in_blocks(&program, expr);
+    }
+}
+
+/// Every point of a block is what the program gives there alone, whatever lies on its way.
+fn in_blocks(program: &Program, expr: &Expr) {
+    let count = 150;
+    let at = |input: usize, point: usize| match input {
+        3 => 0.4,
+        _ => 0.05 + 0.9 * ((0.7549 - 0.11 * input as f64) * (point + 1) as f64).fract(),
+    };
+    let columns: Vec<Vec<f64>> = (0..NAMES.len())
+        .map(|input| (0..count).map(|point| at(input, point)).collect())
+        .collect();
+    let mut inputs: Vec<Column<f64>> = columns.iter().map(|it| Column::Varying(it)).collect();
+    inputs[3] = Column::Uniform(0.4);
+    let mut out = vec![0.0; count];
+    for isa in Isa::available() {
+        program.eval_block_f64(&inputs, &mut out, &mut Scratch::on(isa));
+        for (point, out) in out.iter().enumerate().step_by(7) {
+            let alone: Vec<f64> = (0..NAMES.len()).map(|input| at(input, point)).collect();
+            let alone = program.eval(&alone);
+            assert!(
+                *out == alone || out.is_nan() && alone.is_nan(),
+                "{expr} at {point} on {}: {out}, alone {alone}",
+                isa.name()
+            );
         }
     }
 }
