@@ -54,20 +54,20 @@ pub(crate) const TERMS: &[Term] = &[D_GGX, D_GGX_ANISO, D_BECKMANN, D_BLINN_PHON
 /// ```
 #[inline(always)]
 pub fn d_ggx<R: Real>(n_dot_h: R, alpha: R) -> R {
-    if n_dot_h < lit(0.0) {
-        return lit(0.0);
-    }
     let c = n_dot_h.at_most(lit(1.0));
     let alpha = alpha.bounded();
     let sin2 = (lit::<R>(1.0) - c) * (lit::<R>(1.0) + c);
     let ac = alpha * c;
-    // At the peak itself α/α² would be 0/0 for an α whose square underflows.
-    let t = if sin2 == lit(0.0) {
-        lit::<R>(1.0) / alpha
+    // At the peak itself α/α² would be 0/0 for an α whose square underflows. One quotient, of what
+    // is chosen before: a loop over points takes no quotient behind a branch for several at once.
+    let (above, below) = if sin2 == lit(0.0) {
+        (lit(1.0), alpha)
     } else {
-        alpha / (ac * ac + sin2)
+        (alpha, ac * ac + sin2)
     };
-    t * t * lit(FRAC_1_PI)
+    let t = above / below;
+    let value = t * t * lit(FRAC_1_PI);
+    if n_dot_h < lit(0.0) { lit(0.0) } else { value }
 }
 
 const D_GGX: Term = entry!(
