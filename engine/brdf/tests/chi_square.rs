@@ -10,9 +10,12 @@
 //! The seeds are fixed, and so is the level: all tests of a group together raise a false alarm
 //! once in a thousand seeds (Bonferroni). Densities that are wrong by little are rejected.
 
+mod numbers;
+
 use brdf::batch::{self, Isa, Samples};
 use brdf::glam::Vec3;
 use brdf::{Ggx, Sampler};
+use numbers::Numbers;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 const ROWS: usize = 16;
@@ -22,19 +25,6 @@ const DRAWN: usize = 100_000;
 
 type Vector = [f64; 3];
 type Density = fn(Ggx<f64>, Vector, Vector, Sampler) -> f64;
-
-/// Numbers that follow from a seed (SplitMix64).
-struct Numbers(u64);
-
-impl Numbers {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-}
 
 fn direction(cos: f64, phi: f64) -> Vector {
     let sin = ((1.0 - cos) * (1.0 + cos)).sqrt();

@@ -1,24 +1,14 @@
 //! The lobe from vectors: agreement with the terms, samplers against the albedo. Whether they draw
 //! their densities is for `chi_square.rs`.
 
+mod numbers;
+
 use brdf::*;
+use numbers::Numbers;
 use std::f64::consts::PI;
 
-/// Numbers that follow from a seed (SplitMix64).
-struct Numbers(u64);
-
-impl Numbers {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn pair(&mut self) -> [f64; 2] {
-        [self.unit(), self.unit()]
-    }
+fn pair(numbers: &mut Numbers) -> [f64; 2] {
+    [numbers.unit(), numbers.unit()]
 }
 
 fn direction(cos: f64, phi: f64) -> [f64; 3] {
@@ -86,7 +76,7 @@ fn samplers_find_the_albedo() {
                 let (ggx, v) = (Ggx::new(alpha), direction(cos, 1.0));
                 let (mut numbers, count) = (Numbers(3), 40_000);
                 let sum: f64 = (0..count)
-                    .map(|_| ggx.sample(v, numbers.pair(), sampler).weight)
+                    .map(|_| ggx.sample(v, pair(&mut numbers), sampler).weight)
                     .sum();
                 let (mean, truth) = (sum / count as f64, albedo_ggx(cos, alpha));
                 assert!(

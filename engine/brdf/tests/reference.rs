@@ -86,7 +86,7 @@ fn albedos_agree() {
         ("albedo_ggx_separable", "E_separable"),
         ("albedo_ggx_divided_twice", "E_BUG_double_divide"),
     ];
-    let mut worst = Worst::default();
+    let (mut worst, mut single) = (Worst::default(), Worst::default());
     for row in read(include_str!("reference/albedo.json"))["rows"]
         .as_array()
         .unwrap()
@@ -96,36 +96,19 @@ fn albedos_agree() {
                 row["n_dot_v"].as_f64().unwrap(),
                 row["alpha"].as_f64().unwrap(),
             ];
-            let value = (term(name).unwrap().f64)(&args);
+            let term = term(name).unwrap();
             let truth = number(&row[column]);
-            worst.note(
-                name,
-                relative(value, truth, 0.0),
-                format!("{args:?}: {value}, not {truth}"),
-            );
-        }
-    }
-    worst.check(1e-9);
-}
-
-#[test]
-fn albedos_in_single_precision() {
-    let mut worst = Worst::default();
-    for name in ["albedo_ggx", "albedo_ggx_separable"] {
-        let term = term(name).unwrap();
-        for mu in [
-            1e-3f32, 0.003, 0.01, 0.03, 0.06, 0.099, 0.101, 0.15, 0.2, 0.3, 0.5, 0.7, 0.9, 1.0,
-        ] {
-            for alpha in [1e-4f32, 1e-3, 0.01, 0.03, 0.06, 0.1, 0.2, 0.4, 0.7, 1.0] {
-                let value = f64::from((term.f32)(&[mu, alpha]));
-                let truth = (term.f64)(&[f64::from(mu), f64::from(alpha)]);
-                worst.note(
-                    name,
-                    relative(value, truth, 0.0),
-                    format!("{mu} {alpha}: {value}, not {truth}"),
-                );
+            let note = |worst: &mut Worst, value: f64| {
+                let at = format!("{args:?}: {value}, not {truth}");
+                worst.note(name, relative(value, truth, 0.0), at);
+            };
+            note(&mut worst, (term.f64)(&args));
+            // Of a mistake nobody asks 1e-5.
+            if name != "albedo_ggx_divided_twice" {
+                note(&mut single, f64::from((term.f32)(&args.map(|x| x as f32))));
             }
         }
     }
-    worst.check(1e-5);
+    worst.check(1e-9);
+    single.check(1e-5);
 }

@@ -1,23 +1,14 @@
 //! Random walks against what is known about them.
 
+mod numbers;
+
 use brdf::batch::Isa;
 use brdf::glam::Vec3;
 use brdf::walk::{Exit, Facets, Walks, walk, walk_mirrors};
 use brdf::{Ggx, Sampler, albedo_ggx};
+use numbers::Numbers;
 
 const COUNT: usize = 40_000;
-
-struct Numbers(u64);
-
-impl Numbers {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        (((z ^ (z >> 31)) >> 12) as f64 + 0.5) / (1u64 << 52) as f64
-    }
-}
 
 fn view(cos: f64) -> [f64; 3] {
     [

@@ -4,24 +4,16 @@
 //! ray meets is D weighted by |T·m|, the visible normals: [`brdf::walk::walk`] draws those.
 //! Everything else here is the same walk, written plainly.
 
+#[path = "../numbers/mod.rs"]
+mod numbers;
+
+pub use numbers::Numbers;
+
 use brdf::{albedo_ggx, diffuse_hammon, f_schlick, lambda_ggx};
 use std::f64::consts::{PI, TAU};
 
 /// His F0, of water.
 pub const F0: f64 = 0.02;
-
-/// Numbers in (0, 1) that follow from a seed (SplitMix64).
-pub struct Numbers(pub u64);
-
-impl Numbers {
-    pub fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        (((z ^ (z >> 31)) >> 12) as f64 + 0.5) / (1u64 << 52) as f64
-    }
-}
 
 /// A view at a cosine.
 pub fn view(cos: f64) -> [f64; 3] {
