@@ -1,5 +1,5 @@
-//! Prints the worst points of every term, and fails past the bounds: `--quick` for a short run, names
-//! for some of them only.
+//! Prints the worst points of every term, and fails past the bounds: `--quick` for a short run,
+//! `--seed=N` for other points, names for some of them only.
 
 use std::process::ExitCode;
 use truth::stress::{Effort, Precision, search, subjects};
@@ -7,7 +7,12 @@ use truth::stress::{Effort, Precision, search, subjects};
 fn main() -> ExitCode {
     let args: Vec<String> = std::env::args().skip(1).collect();
     let quick = args.iter().any(|arg| arg == "--quick");
-    let names: Vec<&String> = args.iter().filter(|arg| *arg != "--quick").collect();
+    let seed = args.iter().find_map(|arg| arg.strip_prefix("--seed="));
+    let seed = seed.map_or(Ok(1), str::parse).unwrap_or_else(|_| {
+        eprintln!("--seed= wants a whole number");
+        std::process::exit(2)
+    });
+    let names: Vec<&String> = args.iter().filter(|arg| !arg.starts_with("--")).collect();
     let wanted = |name: &str| names.is_empty() || names.iter().any(|wanted| *wanted == name);
     let mut ok = true;
     for precision in [Precision::Single, Precision::Double] {
@@ -20,7 +25,7 @@ fn main() -> ExitCode {
             if !wanted(subject.name) {
                 continue;
             }
-            let finding = search(subject, precision, effort, 1);
+            let finding = search(subject, precision, effort, seed);
             ok &= finding.ok();
             let of_jitter = finding
                 .of_jitter

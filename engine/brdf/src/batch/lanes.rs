@@ -50,6 +50,10 @@ pub(crate) trait Lanes:
     fn at_most(self, high: Self) -> Self;
     /// `value`, but 0 where `self` is 0 or less.
     fn masks(self, value: Self) -> Self;
+    /// Whether one of them is less than that of `limit`.
+    fn any_less(self, limit: Self) -> bool;
+    /// `yes` where `self` is less than `limit`, else `no`.
+    fn if_less(self, limit: Self, yes: Self, no: Self) -> Self;
     /// Sine and cosine of an angle some quarters of a turn larger than that of `sin` and `cos`:
     /// the number of quarters is in the last bits of `count`.
     fn turned(count: Self, sin: Self, cos: Self) -> (Self, Self);
@@ -115,6 +119,14 @@ macro_rules! single_lane {
                 } else {
                     value
                 }
+            }
+            #[inline(always)]
+            fn any_less(self, limit: $name) -> bool {
+                self < limit
+            }
+            #[inline(always)]
+            fn if_less(self, limit: $name, yes: $name, no: $name) -> $name {
+                if self < limit { yes } else { no }
             }
             #[inline(always)]
             fn turned(count: $name, sin: $name, cos: $name) -> ($name, $name) {

@@ -50,16 +50,18 @@ mod lanes;
 mod sample;
 mod specular;
 mod units;
+mod vectors;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
 pub use conductor::{Conductor, conductor_rgb};
 pub(crate) use functions::{ln_unit, sin_cos_turn};
 pub use sample::{Samples, sample};
-pub use specular::{Cosines, Vectors, specular, specular_vec3, specular_vectors};
+pub use specular::{Cosines, specular};
 pub use units::{
     BESIDE, PRODUCTS, divide, divide_beside, multiply, square_root, square_root_beside,
 };
+pub use vectors::{Vectors, specular_vec3, specular_vectors};
 
 use lanes::{At, Column, Lanes};
 

@@ -132,6 +132,19 @@ impl Lanes for F32x4 {
         F32x4(unsafe { _mm_and_ps(_mm_cmpnle_ps(self.0, _mm_setzero_ps()), value.0) })
     }
     #[inline(always)]
+    fn any_less(self, limit: F32x4) -> bool {
+        // SAFETY: the instruction set was found.
+        unsafe { _mm_movemask_ps(_mm_cmplt_ps(self.0, limit.0)) != 0 }
+    }
+    #[inline(always)]
+    fn if_less(self, limit: F32x4, yes: F32x4, no: F32x4) -> F32x4 {
+        // SAFETY: the instruction set was found.
+        F32x4(unsafe {
+            let less = _mm_cmplt_ps(self.0, limit.0);
+            _mm_or_ps(_mm_and_ps(less, yes.0), _mm_andnot_ps(less, no.0))
+        })
+    }
+    #[inline(always)]
     fn turned(count: F32x4, sin: F32x4, cos: F32x4) -> (F32x4, F32x4) {
         // SAFETY: the instruction set was found.
         unsafe {
@@ -198,6 +211,19 @@ impl Lanes for F32x8 {
         F32x8(unsafe {
             let above = _mm256_cmp_ps::<_CMP_NLE_UQ>(self.0, _mm256_setzero_ps());
             _mm256_and_ps(above, value.0)
+        })
+    }
+    #[inline(always)]
+    fn any_less(self, limit: F32x8) -> bool {
+        // SAFETY: the instruction set was found.
+        unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LT_OQ>(self.0, limit.0)) != 0 }
+    }
+    #[inline(always)]
+    fn if_less(self, limit: F32x8, yes: F32x8, no: F32x8) -> F32x8 {
+        // SAFETY: the instruction set was found.
+        F32x8(unsafe {
+            let less = _mm256_cmp_ps::<_CMP_LT_OQ>(self.0, limit.0);
+            _mm256_blendv_ps(no.0, yes.0, less)
         })
     }
     #[inline(always)]
@@ -289,6 +315,19 @@ impl Lanes for F32x16 {
         F32x16(unsafe {
             let above = _mm512_cmp_ps_mask::<_CMP_NLE_UQ>(self.0, _mm512_setzero_ps());
             _mm512_maskz_mov_ps(above, value.0)
+        })
+    }
+    #[inline(always)]
+    fn any_less(self, limit: F32x16) -> bool {
+        // SAFETY: the instruction set was found.
+        unsafe { _mm512_cmp_ps_mask::<_CMP_LT_OQ>(self.0, limit.0) != 0 }
+    }
+    #[inline(always)]
+    fn if_less(self, limit: F32x16, yes: F32x16, no: F32x16) -> F32x16 {
+        // SAFETY: the instruction set was found.
+        F32x16(unsafe {
+            let less = _mm512_cmp_ps_mask::<_CMP_LT_OQ>(self.0, limit.0);
+            _mm512_mask_blend_ps(less, no.0, yes.0)
         })
     }
     #[inline(always)]

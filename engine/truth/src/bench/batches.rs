@@ -6,6 +6,7 @@ use brdf::glam::Vec3;
 use brdf::walk::{Walks, walk_mirrors};
 use brdf::{Fresnel, Ggx, Sampler, Specular, d_ggx, f_conductor, f_schlick, v_ggx};
 use std::ops::{Deref, DerefMut};
+use std::rc::Rc;
 use std::time::Duration;
 
 /// Elements of a batch: eight slices of them fit in a second-level cache.
@@ -291,10 +292,10 @@ pub(super) fn specular(isa: Isa, variant: &str, columns: &[Aligned; 6], out: &mu
 const VECTORS: (f64, f64, f64) = (2.0, 3.0, 23.0);
 
 fn vectors() -> Vec<Subject> {
-    let lobe = Specular {
+    let lobe = |f0: f32| Specular {
         ggx: Ggx::new(f64::from(0.3f32)),
         fresnel: Fresnel::Schlick {
-            f0: [f64::from(0.04f32); 3],
+            f0: [f64::from(f0); 3],
         },
     };
     let needs = needs(VECTORS.0, VECTORS.1, VECTORS.2);
@@ -304,25 +305,35 @@ fn vectors() -> Vec<Subject> {
         let column = |of: &[Vec3], i: usize| Aligned::new(of.iter().map(|v| v[i]));
         let columns = [0, 1, 2].map(|i| [column(&l, i), column(&v, i)]);
         let wide = |v: Vec3| v.to_array().map(f64::from);
-        let truth = |i: usize| lobe.eval_cos(wide(l[i]), wide(v[i]))[0];
+        let truth = |f0: f32| {
+            let (lobe, l, v) = (lobe(f0), &l, &v);
+            move |i: usize| lobe.eval_cos(wide(l[i]), wide(v[i]))[0]
+        };
 
-        let [mut soa, mut aos] = [0; 2].map(|_| Aligned::zeros());
-        let evaluate = move |out: &mut [f32]| {
-            let [[lx, vx], [ly, vy], [lz, vz]] = &columns;
+        let [mut soa, mut dark, mut aos] = [0; 3].map(|_| Aligned::zeros());
+        let columns = Rc::new(columns);
+        let evaluate = move |columns: &[[Aligned; 2]; 3], f0: f32, out: &mut [f32]| {
+            let [[lx, vx], [ly, vy], [lz, vz]] = columns;
             let input = Vectors {
                 l: [lx, ly, lz],
                 v: [Input::Each(vx), Input::Each(vy), Input::Each(vz)],
                 alpha: Input::All(0.3),
-                f0: Some(Input::All(0.04)),
+                f0: Some(Input::All(f0)),
             };
             batch::specular_vectors(isa, &input, out);
         };
-        evaluate(&mut soa);
+        evaluate(&columns, 0.04, &mut soa);
+        evaluate(&columns, 0.0, &mut dark);
         batch::specular_vec3(isa, &l, &v, 0.3, Some(0.04), &mut aos);
-        let (soa_errors, aos_errors) = (errors(&soa, truth), errors(&aos, truth));
+        let (soa_errors, aos_errors) = (errors(&soa, truth(0.04)), errors(&aos, truth(0.04)));
+        let dark_errors = errors(&dark, truth(0.0));
         let name = |variant| ("specular_vectors", variant);
-        let call = move || evaluate(opaque(&mut soa));
+        let input = Rc::clone(&columns);
+        let call = move || evaluate(&input, 0.04, opaque(&mut soa));
         subjects.push(subject(name("batch"), isa, needs, soa_errors, call));
+        // Below 0.01 it is computed with more care.
+        let call = move || evaluate(&columns, 0.0, opaque(&mut dark));
+        subjects.push(subject(name("f0 0"), isa, needs, dark_errors, call));
         let call = move || batch::specular_vec3(isa, &l, &v, 0.3, Some(0.04), opaque(&mut aos));
         subjects.push(subject(name("vec3"), isa, needs, aos_errors, call));
     }

@@ -106,9 +106,7 @@ pub fn bound(name: &str) -> f64 {
         }
         "batch_specular" | "batch_specular_baseline" => 25.0,
         "batch_hoisted" | "batch_hoisted_baseline" => 25.0,
-        // Its sums do not keep their rounding errors, for speed: near l = −v, where Schlick's power
-        // is almost 1, they count five times.
-        "batch_vectors" | "batch_vectors_baseline" => 36.0,
+        "batch_vectors" | "batch_vectors_baseline" => 25.0,
         // Fits that are themselves within a hundredth.
         "albedo_ggx_karis" | "albedo_ggx_materialx" => 84.0,
         // D V with roughness² rounded, on which D depends by the fourth power of it.
