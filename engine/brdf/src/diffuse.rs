@@ -81,6 +81,13 @@ fn one_minus_pow5<R: Real>(c: R) -> R {
 ///   above 1 is taken as it is.
 /// - *Error*: 7.8 ulp in f32, 6.0 in f64.
 /// - *Right and wrong*: reciprocal; gains energy on rough surfaces. It takes roughness, not α.
+///
+/// ```
+/// // Where light and view graze together a rough surface is brighter than Lambert, a smooth one darker.
+/// let lambert: f64 = brdf::diffuse_lambert(0.5);
+/// assert!(brdf::diffuse_disney(0.1, 0.1, 1.0, 1.0, 0.5) > 2.0 * lambert);
+/// assert!(brdf::diffuse_disney(0.1, 0.1, 1.0, 0.0, 0.5) < 0.5 * lambert);
+/// ```
 #[inline(always)]
 pub fn diffuse_disney<R: Real>(n_dot_l: R, n_dot_v: R, v_dot_h: R, roughness: R, albedo: R) -> R {
     above_horizon(n_dot_l, n_dot_v, |l, v| {
@@ -138,6 +145,14 @@ fn ordered<R: Real>(l: R, v: R) -> (R, R) {
 /// - *Error*: 8.4 ulp in f32, 7.7 in f64.
 /// - *Right and wrong*: grooves in the shape of a V without interreflection: reciprocal, and
 ///   darker the rougher. It has a crease where the two angles are equal.
+///
+/// ```
+/// // A full moon: seen from where the light comes, a rough ball is almost as bright at its rim.
+/// let rim = |sigma: f64| brdf::diffuse_oren_nayar(0.3, 0.3, 1.0, sigma, 1.0) * 0.3;
+/// let middle = |sigma: f64| brdf::diffuse_oren_nayar(1.0, 1.0, 1.0, sigma, 1.0);
+/// assert!((rim(0.0) / middle(0.0) - 0.3).abs() < 1e-15); // Lambert
+/// assert!(rim(0.8) / middle(0.8) > 0.6);
+/// ```
 #[inline(always)]
 pub fn diffuse_oren_nayar<R: Real>(n_dot_l: R, n_dot_v: R, cos_phi: R, sigma: R, albedo: R) -> R {
     above_horizon(n_dot_l, n_dot_v, |l, v| {
@@ -302,6 +317,13 @@ const DIFFUSE_OREN_NAYAR_FULL: Term = entry!(
 /// to follow that walk, which is not reciprocal and does not agree with ∫ D G₂.
 ///
 /// N·H is taken from the identity (N·L + N·V)/|L + V|, and never divided by alone.
+///
+/// ```
+/// // Smooth, it is what two passages of a coat leave of Lambert.
+/// let passed = |c: f64| 1.0 - (1.0 - c).powi(5);
+/// let f = brdf::diffuse_hammon(0.3, 0.8, 0.5, 0.0, 0.5);
+/// assert!((f - 1.05 * 0.5 * passed(0.3) * passed(0.8) / std::f64::consts::PI).abs() < 1e-15);
+/// ```
 #[inline(always)]
 pub fn diffuse_hammon<R: Real>(n_dot_l: R, n_dot_v: R, l_dot_v: R, alpha: R, albedo: R) -> R {
     above_horizon(n_dot_l, n_dot_v, |l, v| {

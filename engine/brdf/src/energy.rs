@@ -36,6 +36,11 @@ pub(crate) const TERMS: &[Term] = &[
 /// - *Value*: 0.409 (α = 1) to 1 (a mirror).
 /// - *Outside*: the sign of α is ignored.
 /// - *Error*: that of [`albedo_ggx`], averaged.
+///
+/// ```
+/// let exact = 4.0 * (1.0 - 2f64.ln()) / 3.0; // at α = 1
+/// assert!((brdf::albedo_average_ggx(1.0f64) - exact).abs() < 1e-9);
+/// ```
 pub fn albedo_average_ggx<R: Real>(alpha: R) -> R {
     if alpha.is_nan() {
         return alpha;
@@ -129,6 +134,13 @@ const F_MULTI_KULLA_CONTY: Term = entry!(
 ///   [`f_schlick_average`](crate::f_schlick_average).
 /// - *Outside*: both are brought into [0, 1].
 /// - *Error*: 3.5 ulp in f32, 3.2 in f64.
+///
+/// ```
+/// // What bounces more often takes on more of the colour.
+/// let gold = [1.0f64, 0.77, 0.34].map(|f0| brdf::f_schlick_average(f0));
+/// let [red, _, blue] = gold.map(|f| brdf::multi_scattering_tint(f, 0.6));
+/// assert!(blue / red < gold[2] / gold[0]);
+/// ```
 pub fn multi_scattering_tint<R: Real>(f_average: R, albedo_average: R) -> R {
     let one = lit::<R>(1.0);
     let (f, e) = (f_average.clamp_unit(), albedo_average.clamp_unit());
@@ -151,6 +163,12 @@ pub fn multi_scattering_tint<R: Real>(f_average: R, albedo_average: R) -> R {
 /// - *Outside*: f0 is brought into [0, 1]; E(v) is expected to be more than 0.
 /// - *Error*: 1.6 ulp.
 /// - *Right and wrong*: cheap and not reciprocal: only the view enters.
+///
+/// ```
+/// // What a white metal loses is put back, all of it.
+/// let e = brdf::albedo_ggx(0.6f64, 0.8);
+/// assert!((e * brdf::compensation_turquin(1.0, e) - 1.0).abs() < 1e-15);
+/// ```
 pub fn compensation_turquin<R: Real>(f0: R, albedo_v: R) -> R {
     let one = lit::<R>(1.0);
     let e = albedo_v.at_least(lit(R::TINY)).at_most(one);

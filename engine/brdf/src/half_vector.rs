@@ -102,6 +102,12 @@ const V_DOT_H_FROM: Term = entry!(
 ///
 /// σ² is the variance of the slopes under the pixel's filter; 0.18 keeps a pixel that holds an
 /// edge from turning everything rough.
+///
+/// ```
+/// // A bumpy mirror far away looks like a rough one.
+/// assert_eq!(brdf::alpha_filtered(0.0f64, 0.02), 0.2);
+/// assert_eq!(brdf::alpha_filtered(0.5f64, 0.0), 0.5);
+/// ```
 #[inline(always)]
 pub fn alpha_filtered<R: Real>(alpha: R, variance: R) -> R {
     let kernel = (lit::<R>(2.0) * variance.at_least(lit(0.0))).at_most(lit(0.18));

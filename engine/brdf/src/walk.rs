@@ -183,6 +183,19 @@ impl Split {
     ///   view, of length 1 and above the horizon; `walks` how many rays; `next` gives independent numbers
     ///   in (0, 1).
     /// - *Value*: shares of the light, each with a standard error of at most 0.5/sqrt(walks).
+    ///
+    /// ```
+    /// use brdf::{Ggx, walk::Split};
+    /// let mut seed = 7u64;
+    /// let mut next = || {
+    ///     seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+    ///     ((seed >> 11) as f64 + 0.5) / (1u64 << 53) as f64
+    /// };
+    /// let split = Split::new(Ggx::new(0.36), 0.04, [0.6, 0.0, 0.8], 2_000, &mut next);
+    /// // A white base under a clear coat gives all light back; a grey one keeps more than half of it.
+    /// assert!((split.specular + split.diffuse(1.0) - 1.0).abs() < 1e-2);
+    /// assert!(split.diffuse(0.5) < 0.5 * split.diffuse(1.0));
+    /// ```
     pub fn new<R: Real>(
         ggx: Ggx<R>,
         f0: R,

@@ -131,6 +131,17 @@ fn d_of_half<R: Real>(n: Vector<R>, h: [(R, R); 3], alpha: R) -> R {
 /// - *Outside*: 0 where the light or the view is not above the horizon.
 /// - *Error*: 19.0 ulp in f32, 18.6 in f64; where the arguments are worse, 0.71 of what half a
 ///   unit in each of them changes.
+///
+/// ```
+/// use brdf::{Fresnel, Ggx, Specular};
+/// // A floor, in a world where y is up, and the same in the tangent frame.
+/// let fresnel = Fresnel::Schlick { f0: [0.9f64, 0.6, 0.3] };
+/// let (n, l, v) = ([0.0, 1.0, 0.0], [0.6, 0.8, 0.0], [0.0, 0.6, 0.8]);
+/// let rgb = brdf::specular_ggx_world(n, l, v, 0.16, &fresnel);
+/// let lobe = Specular { ggx: Ggx::new(0.16), fresnel };
+/// let same = lobe.eval_cos([0.6, 0.0, 0.8], [0.0, -0.8, 0.6]);
+/// assert!(rgb.iter().zip(same).all(|(a, b)| (a - b).abs() < 1e-14));
+/// ```
 pub fn specular_ggx_world<R: Real>(
     n: impl Into<Vector<R>>,
     l: impl Into<Vector<R>>,

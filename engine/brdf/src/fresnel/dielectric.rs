@@ -52,6 +52,14 @@ pub fn f_dielectric<R: Real>(eta: R, v_dot_h: R) -> R {
 /// - *Value*: 0 under total internal reflection and at grazing, to 1.
 /// - *Outside*: cosines are brought into [0, 1]; the sign of η is ignored; η = 1 gives 1.
 /// - *Error*: 5.7 ulp in f32, 3.9 in f64.
+///
+/// ```
+/// // Into glass and out of it again at the other side of the same ray: as much each time.
+/// let (eta, c) = (1.5f64, 0.6);
+/// let inside = (1.0 - (1.0 - c * c) / (eta * eta)).sqrt();
+/// let (in_, out) = (brdf::t_dielectric(eta, c), brdf::t_dielectric(1.0 / eta, inside));
+/// assert!((in_ - out).abs() < 1e-15);
+/// ```
 #[inline(always)]
 pub fn t_dielectric<R: Real>(eta: R, v_dot_h: R) -> R {
     let refraction = Refraction::new(eta, v_dot_h);

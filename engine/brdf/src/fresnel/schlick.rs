@@ -146,6 +146,12 @@ pub(super) const F_SCHLICK_IOR: Term = entry!(
 /// - *Value*: 0.04, a dielectric of index 1.5, to the base colour.
 /// - *Outside*: `metallic` is brought into [0, 1]; the colour is taken as it is.
 /// - *Error*: 2.1 ulp.
+///
+/// ```
+/// let gold = [1.0, 0.77, 0.34f64];
+/// assert_eq!(brdf::f0_from_metallic(gold, 1.0), gold); // a metal has its colour from the mirror
+/// assert_eq!(brdf::f0_from_metallic(gold, 0.0), [0.04; 3]); // a plastic from what lies below
+/// ```
 #[inline(always)]
 pub fn f0_from_metallic<R: Real>(base_color: [R; 3], metallic: R) -> [R; 3] {
     let m = metallic.clamp_unit();
@@ -181,6 +187,13 @@ pub fn f_schlick_average<R: Real>(f0: R) -> R {
 /// - *Outside*: cosines are brought into [0, 1]. Not kept in [0, 1]: a large `a` makes it
 ///   negative.
 /// - *Error*: 9.9 ulp in f32, 7.8 in f64, on the scale of f0/2 where the terms cancel.
+///
+/// ```
+/// // Some metals reflect less before grazing than straight on; Schlick's curve only rises.
+/// let (f0, v_dot_h) = (0.91f64, 0.15);
+/// assert!(brdf::f_schlick(f0, v_dot_h) > f0);
+/// assert!(brdf::f_lazanyi(f0, 1.5, v_dot_h) < f0);
+/// ```
 #[inline(always)]
 pub fn f_lazanyi<R: Real>(f0: R, a: R, v_dot_h: R) -> R {
     let (f0, a) = (f0.bounded(), a.bounded());

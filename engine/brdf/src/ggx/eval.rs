@@ -20,6 +20,12 @@ impl<R: Real> Ggx<R> {
     /// - *Outside*: 0 below the horizon.
     /// - *Error*: 15.1 ulp in f32, 12.7 in f64; D here keeps fewer rounding errors than
     ///   [`Ggx::d_between`], for speed.
+    ///
+    /// ```
+    /// // The roughest surface: f = 1/(2π (N·L + N·V)), the same for any azimuth.
+    /// let f = brdf::Ggx::new(1.0f64).eval([0.6, 0.0, 0.8], [0.0, 0.8, 0.6]);
+    /// assert!((f - 1.0 / (std::f64::consts::TAU * 1.4)).abs() < 1e-15);
+    /// ```
     #[inline(always)]
     pub fn eval(&self, l: impl Into<Vector<R>>, v: impl Into<Vector<R>>) -> R {
         let (l, v) = (l.into(), v.into());

@@ -20,6 +20,13 @@ use crate::vector::{Vector, tamed};
 /// Schlick takes the fifth power of the second, so that each of its ulps counts five times: sums
 /// and differences keep their rounding errors, and far from l = v the plain difference is the
 /// better one.
+///
+/// ```
+/// // 1 − cos of half a thousandth: about one unit in the last place of the cosine.
+/// let (v_dot_h, rest) = brdf::v_dot_h_and_rest([0.001f32, 0.0, 0.9999995], [0.0, 0.0, 1.0]);
+/// assert!((1.0 - v_dot_h).abs() < 1.3e-7);
+/// assert!((rest / 1.25e-7 - 1.0).abs() < 1e-5);
+/// ```
 #[inline(always)]
 pub fn v_dot_h_and_rest<R: Real>(l: impl Into<Vector<R>>, v: impl Into<Vector<R>>) -> (R, R) {
     let (l, v) = (l.into(), v.into());

@@ -132,6 +132,14 @@ pub(super) fn cot_over_alpha<R: Real>(c: R, alpha: R) -> (R, R) {
 /// The two terms cancel: at a = 5 they agree in all but the last two digits. Multiplied out it is
 /// exp(−a²) (1 − a sqrt(π) erfcx(a))/(2 a sqrt(π)), the bracket from a series of its own and the
 /// exponent as an unevaluated sum.
+///
+/// ```
+/// // Where less than 1e-10 is hidden, all digits are there.
+/// let (n_dot_x, alpha) = (0.9f64, 0.4);
+/// let lambda = brdf::lambda_beckmann(n_dot_x, alpha);
+/// assert!(lambda > 0.0 && lambda < 1e-10);
+/// assert_eq!(brdf::one_minus_g1_beckmann(n_dot_x, alpha), lambda / (1.0 + lambda));
+/// ```
 pub fn lambda_beckmann<R: Real>(n_dot_x: R, alpha: R) -> R {
     if n_dot_x <= lit(0.0) {
         return lit::<R>(1.0) / lit(0.0);

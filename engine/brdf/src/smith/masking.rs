@@ -18,6 +18,13 @@ use crate::term::{ALPHA, N_DOT_X, Term, entry};
 /// - *Outside*: at or below the horizon 0; a cosine above 1 counts as 1; only α² counts, any α ≥
 ///   0.
 /// - *Error*: 5.3 ulp in f32, 4.3 in f64; of 1 − G₁ see [`one_minus_g1_ggx`].
+///
+/// ```
+/// // Half of the facets that are turned to a view are seen where tan θ = sqrt(8)/α.
+/// let alpha = 0.5f64;
+/// let tan = 8f64.sqrt() / alpha;
+/// assert!((brdf::g1_ggx(1.0 / (1.0 + tan * tan).sqrt(), alpha) - 0.5).abs() < 1e-15);
+/// ```
 #[inline(always)]
 pub fn g1_ggx<R: Real>(n_dot_x: R, alpha: R) -> R {
     if n_dot_x <= lit(0.0) {
@@ -83,6 +90,13 @@ pub(super) const G1_BECKMANN: Term = entry!(
 /// - *Error*: 5.0 ulp of the fit in f32, 4.0 in f64; the fit is within 0.32 % of [`g1_beckmann`].
 /// - *Right and wrong*: it exceeds 1 (by 6e-5) for a between 1.5481 and 1.6, and jumps at 1.6,
 ///   where the exact one is 0.9982.
+///
+/// ```
+/// // Just below the end of the fit it is no share.
+/// let cosine = |a: f64, alpha: f64| a * alpha / (1.0 + (a * alpha).powi(2)).sqrt();
+/// assert!(brdf::g1_beckmann_rational(cosine(1.59, 0.3), 0.3) > 1.00005);
+/// assert!(brdf::g1_beckmann(cosine(1.59, 0.3), 0.3) < 0.9985);
+/// ```
 #[inline(always)]
 pub fn g1_beckmann_rational<R: Real>(n_dot_x: R, alpha: R) -> R {
     if n_dot_x <= lit(0.0) {
@@ -127,6 +141,14 @@ pub(super) const G1_BECKMANN_RATIONAL: Term = entry!(
 /// - *Outside*: at or below the horizon 1; a cosine above 1 counts as 1; only α² counts.
 /// - *Error*: 8.1 ulp in f32, 7.3 in f64, also where G₁ is almost 1 and a difference from 1 has no
 ///   digits left.
+///
+/// ```
+/// // Of so little a difference from 1 has no digits left in single precision.
+/// let (n_dot_x, alpha) = (0.99f32, 0.001);
+/// assert_eq!(1.0 - brdf::g1_ggx(n_dot_x, alpha), 0.0);
+/// let hidden = brdf::one_minus_g1_ggx(n_dot_x, alpha);
+/// assert!((hidden / 5.0760e-9 - 1.0).abs() < 1e-4);
+/// ```
 #[inline(always)]
 pub fn one_minus_g1_ggx<R: Real>(n_dot_x: R, alpha: R) -> R {
     if n_dot_x <= lit(0.0) {

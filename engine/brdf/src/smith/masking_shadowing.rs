@@ -62,6 +62,14 @@ pub(super) const G2_GGX: Term = entry!(
 /// - *Right and wrong*: a facet that l sees is likely to be high, and so to be seen by v: too
 ///   dark, most of all where the surface is rough and both graze. Right where one of the two looks
 ///   along the normal.
+///
+/// ```
+/// // What it takes away too much: as if the hidden facets were hidden twice.
+/// let (l, v, alpha) = (0.3f64, 0.2, 0.5);
+/// let hidden = brdf::one_minus_g1_ggx(l, alpha) * brdf::one_minus_g1_ggx(v, alpha);
+/// let ratio = brdf::g2_ggx_separable(l, v, alpha) / brdf::g2_ggx(l, v, alpha);
+/// assert!((ratio - (1.0 - hidden)).abs() < 1e-15);
+/// ```
 #[inline(always)]
 pub fn g2_ggx_separable<R: Real>(n_dot_l: R, n_dot_v: R, alpha: R) -> R {
     g1_ggx(n_dot_l, alpha) * g1_ggx(n_dot_v, alpha)
