@@ -385,6 +385,8 @@ fn fon_loss<R: Real>(mu: R) -> R {
 /// f = (ρ/π) A (1 + r s/t) + (ρ_ms/π) (1 − E(l))(1 − E(v))/(1 − E_avg)
 /// s = L·V − N·L N·V,    t = max(N·L, N·V) where s > 0, else 1
 /// A = 1/(1 + (1/2 − 2/(3π)) r),    ρ_ms = ρ² E_avg/(1 − ρ (1 − E_avg))
+/// E(v) = A (1 + (r/π) (s_v (θ_v − s_v c_v) + (2/3)((s_v/c_v)(1 − s_v³) − s_v))),    c_v = cos θ_v = N·V, s_v = sin θ_v
+/// E_avg = A (1 + (2/3 − 28/(15π)) r)
 /// ```
 ///
 /// - *Source*: Portsmouth, Kutz and Hill 2025 (JCGT 14-1): Fujii's Oren-Nayar plus

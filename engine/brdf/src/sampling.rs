@@ -21,8 +21,8 @@ use crate::real::{Real, lit, zero_unless_nan};
 use crate::vector::{Vector, dot, normalize, rescued, tamed};
 use std::f64::consts::{FRAC_1_PI, PI};
 
-/// How to draw lights for a view. In the order of what they know: the visible normals twice, the visible
-/// normals that mirror upwards, and nothing.
+/// How to draw lights for a view: two ways to the visible normals, one that leaves out those which mirror
+/// downwards, and one that knows nothing of the surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sampler {
     /// Visible normals from a projected hemisphere (Heitz 2018, JCGT 7-4). Numbers that are close to one

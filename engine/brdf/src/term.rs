@@ -54,15 +54,26 @@ const fn is_of_material(name: &str) -> bool {
 }
 
 /// A formula with everything that belongs to it.
+///
+/// ```
+/// use brdf::{batch::Isa, term};
+/// let v_ggx = term("v_ggx").expect("a term of that name");
+/// // One light after the other for a fixed view and width: those that are the same are given once.
+/// let (n_dot_l, n_dot_v, alpha) = ([0.2f32, 0.5, 0.8], [0.6], [0.16]);
+/// let mut out = [0.0; 3];
+/// (v_ggx.f32_block)(Isa::best(), &[&n_dot_l, &n_dot_v, &alpha], &mut out);
+/// assert_eq!(out[2], (v_ggx.f32)(&[0.8, 0.6, 0.16]));
+/// assert_eq!(out[2], brdf::v_ggx(0.8, 0.6, 0.16));
+/// ```
 #[derive(Debug, Clone, Copy)]
 pub struct Term {
-    /// Name by which lessons call it, `d_ggx`.
+    /// Name of its function, `d_ggx`.
     pub name: &'static str,
     /// Arguments in order.
     pub params: &'static [Param],
     /// One line on what it computes.
     pub doc: &'static str,
-    /// Paper and equation.
+    /// Paper and equation; [`crate::sources`] has the titles.
     pub source: &'static str,
     /// Short Unicode form for pretty printing, `D_GGX`, `Λ_GGX`, `G₂`.
     pub symbol: &'static str,
@@ -85,7 +96,7 @@ pub struct Term {
     pub wgsl: Option<&'static str>,
     /// Other terms whose WGSL twins this one calls.
     pub wgsl_needs: &'static [&'static str],
-    /// Rough cost in scalar operations.
+    /// Rough cost in scalar operations, a division or root counted as several: 1 to 4,000,000, for budgets.
     pub cost: u32,
 }
 

@@ -9,8 +9,7 @@ use crate::term::{ALPHA, F0, Param, Term, entry};
 /// The formulas from vectors as data, so that their errors can be measured like those of the terms.
 ///
 /// Their arguments are the components of the vectors one by one, `l_x` to `v_z` in the tangent frame or
-/// `n_x` to `v_z` in the world, then the widths and reflectances. Lessons do not call them, and they have
-/// no WGSL twin.
+/// `n_x` to `v_z` in the world, then the widths and reflectances. They have no WGSL twin.
 ///
 /// ```
 /// let terms = brdf::vector_terms();

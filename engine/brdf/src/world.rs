@@ -6,9 +6,9 @@
 //! | D V F cos θ | [`specular_ggx_world`] | Walter et al. 2007, eq. 20; Heitz 2014, eq. 99 |
 //!
 //! World-space vectors are ill-conditioned: half a unit in the last place of n, l or v changes D of a smooth
-//! surface by thousands of units. What is here is not worse than that: `lobe stress` holds its error to
-//! the bound of the tangent frame or to what half a unit in each argument changes, whichever is more, and
-//! finds 0.31 of that change for D and 0.71 for the whole. Where the frame is known, [`Ggx`](crate::Ggx) is
+//! surface by thousands of units. What is here is not worse than that: a search for the worst points
+//! holds its error to the bound of the tangent frame or to what half a unit in each argument changes,
+//! whichever is more, and finds 0.31 of that change for D and 0.71 for the whole. Where the frame is known, [`Ggx`](crate::Ggx) is
 //! better, because its arguments are. All vectors are expected to have length 1.
 
 use crate::ggx::Fresnel;
