@@ -80,6 +80,9 @@ pub struct Learn {
     /// Seed of the exercise numbers of a new session (else taken from the clock)
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
+    /// Only the questions of the lesson that are due again
+    #[arg(long, conflicts_with_all = ["new", "seed"])]
+    pub due: bool,
 }
 
 #[derive(Clone, Debug, Args)]

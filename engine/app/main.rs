@@ -8,6 +8,7 @@ mod class;
 mod cli;
 mod commands;
 mod config;
+mod due;
 mod editor;
 mod exit;
 mod fingerprints;

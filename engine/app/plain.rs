@@ -5,6 +5,7 @@
 //! nothing is printed twice.
 
 use std::io::{self, BufRead as _, IsTerminal as _};
+use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver};
 use std::thread;
 
@@ -13,12 +14,14 @@ use tutor::prose::{Block, TableView};
 use tutor::session::Msg;
 use tutor::view::{Input, Saving, Stage, View};
 
+use crate::config::SecondJudge;
+use crate::due::{Due, Lineup};
 use crate::exit::{Done, Failure};
 use crate::fingerprints::{places_table, profile_table};
 use crate::maps::map_table;
 use crate::output;
 use crate::shaders;
-use crate::sitting::{Request, Sitting};
+use crate::sitting::{Request, Sitting, Wish};
 use crate::store::Store;
 use crate::text;
 
@@ -33,11 +36,47 @@ enum Incoming {
     Signal(i32),
 }
 
-/// Runs the lesson until its end, or the input's.
-pub fn run(sitting: Sitting, store: &Store) -> Result<Done, Failure> {
+/// Runs the lesson until its end, or the input's; `due` is offered first.
+pub fn run(
+    lesson: &Arc<Lesson>,
+    wish: Wish,
+    due: Option<Due>,
+    store: &Store,
+    judge: Option<SecondJudge>,
+) -> Result<Done, Failure> {
+    let sitting = Sitting::open(lesson, store, wish)?;
+    let lineup = due.map(|due| {
+        (
+            due.words(":due"),
+            Lineup::new(due, Some((Arc::clone(lesson), wish))),
+        )
+    });
+    run_sitting(sitting, lineup, None, store, judge)
+}
+
+/// Asks what is due, and nothing else.
+pub fn run_due(due: Due, store: &Store, judge: Option<SecondJudge>) -> Result<Done, Failure> {
+    let mut lineup = Lineup::new(due, None);
+    match lineup.next(store)? {
+        Some(sitting) => run_sitting(sitting, None, Some(lineup), store, judge),
+        None => Ok(Done::Fine),
+    }
+}
+
+fn run_sitting(
+    sitting: Sitting,
+    offer: Option<(String, Lineup)>,
+    lineup: Option<Lineup>,
+    store: &Store,
+    judge: Option<SecondJudge>,
+) -> Result<Done, Failure> {
     let mut plain = Plain {
         echo: !io::stdin().is_terminal(),
-        sitting,
+        sitting: sitting.with_second_opinions(judge.clone()),
+        store,
+        judge,
+        offer,
+        lineup,
         seen: None,
         told: true,
         said_unsaved: false,
@@ -45,11 +84,18 @@ pub fn run(sitting: Sitting, store: &Store) -> Result<Done, Failure> {
         asked: false,
     };
     let result = plain.converse(&incoming());
-    plain.part(store, result)
+    plain.part(result)
 }
 
-struct Plain {
+struct Plain<'a> {
     sitting: Sitting,
+    store: &'a Store,
+    /// Who gives second opinions.
+    judge: Option<SecondJudge>,
+    /// What is due in other lessons, in words, until something else is done.
+    offer: Option<(String, Lineup)>,
+    /// What comes when the lesson is at its end.
+    lineup: Option<Lineup>,
     /// Whether input is printed, because no terminal shows it.
     echo: bool,
     /// What was printed last: its key, how many blocks, the input asked for.
@@ -63,6 +109,15 @@ struct Plain {
     asked: bool,
 }
 
+/// What follows from a line.
+#[must_use]
+enum Then {
+    Stay,
+    Leave,
+    /// The lesson is at its end.
+    Finish,
+}
+
 /// How the conversation ended.
 enum End {
     Left,
@@ -70,7 +125,7 @@ enum End {
     Signal(i32),
 }
 
-impl Plain {
+impl Plain<'_> {
     fn converse(&mut self, incoming: &Receiver<Incoming>) -> Result<End, Failure> {
         self.greet()?;
         loop {
@@ -83,8 +138,14 @@ impl Plain {
                     if self.echo {
                         output::line(&format!("> {line}"))?;
                     }
-                    if self.take(&line)? {
-                        return Ok(End::Left);
+                    match self.take(&line)? {
+                        Then::Stay => {}
+                        Then::Leave => return Ok(End::Left),
+                        Then::Finish => {
+                            if !self.go_on()? {
+                                return Ok(End::Left);
+                            }
+                        }
                     }
                 }
             }
@@ -117,13 +178,16 @@ impl Plain {
                 output::complain(&place);
             }
         }
+        if let Some((words, _)) = &self.offer {
+            print(&text::wrap_plain(words, WIDTH, "! ", "  "))?;
+        }
         output::line(
             "\nOne line is one input. An empty line goes on. :help says what else there is.",
         )
     }
 
-    /// Takes one line of input. True where the lesson is left.
-    fn take(&mut self, line: &str) -> Result<bool, Failure> {
+    /// Takes one line of input.
+    fn take(&mut self, line: &str) -> Result<Then, Failure> {
         self.told = false;
         let view = self.sitting.view();
         let command = line.trim();
@@ -132,9 +196,10 @@ impl Plain {
             ":back" | ":b" => Msg::Back,
             ":skip" | ":s" => Msg::Skip,
             ":hint" | ":h" => Msg::Hint,
+            ":due" => return self.ask_due(),
             ":help" | ":?" => {
                 help(view)?;
-                return Ok(false);
+                return Ok(Then::Stay);
             }
             _ if matches!(view.input, Input::Text { .. }) => return self.take_text(line),
             _ if matches!(view.input, Input::Code { .. }) => return self.take_code(line),
@@ -143,7 +208,7 @@ impl Plain {
                 output::line(&format!(
                     "! {command} is no command. :help says which there are."
                 ))?;
-                return Ok(false);
+                return Ok(Then::Stay);
             }
             _ => match &view.input {
                 Input::Checklist { points } => {
@@ -151,13 +216,13 @@ impl Plain {
                         Some(msg) => msg,
                         None => {
                             output::line("! Answer y or n, or a point's number and y or n: 2 n.")?;
-                            return Ok(false);
+                            return Ok(Then::Stay);
                         }
                     }
                 }
                 Input::None => {
                     output::line("! Nothing is asked here. An empty line goes on.")?;
-                    return Ok(false);
+                    return Ok(Then::Stay);
                 }
                 _ => Msg::Answer(command.to_owned()),
             },
@@ -174,8 +239,40 @@ impl Plain {
         Ok(self.tell(msg))
     }
 
+    /// Has what is due asked first.
+    fn ask_due(&mut self) -> Result<Then, Failure> {
+        match self.offer.take() {
+            Some((_, lineup)) => {
+                self.lineup = Some(lineup);
+                Ok(Then::Finish)
+            }
+            None => {
+                output::line("! Nothing waits to be asked first.")?;
+                Ok(Then::Stay)
+            }
+        }
+    }
+
+    /// Opens what comes next. False where nothing does.
+    fn go_on(&mut self) -> Result<bool, Failure> {
+        let next = match &mut self.lineup {
+            Some(lineup) => lineup.next(self.store)?,
+            None => None,
+        };
+        let Some(sitting) = next else {
+            return Ok(false);
+        };
+        self.sitting.settle();
+        self.sitting = sitting.with_second_opinions(self.judge.clone());
+        self.seen = None;
+        self.editor = None;
+        output::line("")?;
+        self.greet()?;
+        Ok(true)
+    }
+
     /// A line of an explanation; one `.` hands it in.
-    fn take_text(&mut self, line: &str) -> Result<bool, Failure> {
+    fn take_text(&mut self, line: &str) -> Result<Then, Failure> {
         let lines = self.editor.get_or_insert_default();
         let empty = lines.iter().all(|line| line.trim().is_empty());
         if line.trim() == "." {
@@ -189,7 +286,7 @@ impl Plain {
                 return Ok(self.tell(Msg::Next));
             }
             output::line("! Say it in your own words, and end with a line of one `.`")?;
-            return Ok(false);
+            return Ok(Then::Stay);
         }
         lines.push(line.to_owned());
         let draft = lines.join("\n");
@@ -198,9 +295,9 @@ impl Plain {
 
     /// A line of a shader. Lines typed stand for the whole text; `:7 …` changes one line of it;
     /// a line of one `.` runs it.
-    fn take_code(&mut self, line: &str) -> Result<bool, Failure> {
+    fn take_code(&mut self, line: &str) -> Result<Then, Failure> {
         let Input::Code { text, .. } = &self.sitting.view().input else {
-            return Ok(false);
+            return Ok(Then::Stay);
         };
         let text = text.clone();
         let command = line.trim();
@@ -217,7 +314,7 @@ impl Plain {
                 }
                 Err(why) => {
                     print(&text::wrap_plain(&why, WIDTH, "! ", "  "))?;
-                    Ok(false)
+                    Ok(Then::Stay)
                 }
             };
         }
@@ -225,7 +322,7 @@ impl Plain {
             let text = self.editor.as_ref().map_or(text, |lines| lines.join("\n"));
             print(&numbered(&text))?;
             self.asked = true;
-            return Ok(false);
+            return Ok(Then::Stay);
         }
         if let Some(rest) = command.strip_prefix(':') {
             let digits = rest.len() - rest.trim_start_matches(|c: char| c.is_ascii_digit()).len();
@@ -239,7 +336,7 @@ impl Plain {
                 }
                 None => {
                     output::line("! :7 TEXT changes line 7; a line of one `.` runs the whole.")?;
-                    return Ok(false);
+                    return Ok(Then::Stay);
                 }
             }
         }
@@ -247,7 +344,7 @@ impl Plain {
             return Ok(self.tell(Msg::Next));
         }
         self.editor.get_or_insert_default().push(line.to_owned());
-        Ok(false)
+        Ok(Then::Stay)
     }
 
     /// Leaving an explanation half written: what there is was kept line by line.
@@ -255,9 +352,15 @@ impl Plain {
         self.editor = None;
     }
 
-    fn tell(&mut self, msg: Msg) -> bool {
+    fn tell(&mut self, msg: Msg) -> Then {
         self.told = true;
-        self.sitting.tell(msg).contains(&Request::Leave)
+        self.offer = None;
+        let quits = msg == Msg::Quit;
+        match (self.sitting.tell(msg).contains(&Request::Leave), quits) {
+            (false, _) => Then::Stay,
+            (true, true) => Then::Leave,
+            (true, false) => Then::Finish,
+        }
     }
 
     /// Prints what is new: a new screen, or what was added to this one; then what is asked.
@@ -432,15 +535,19 @@ impl Plain {
         print(&lines)
     }
 
-    fn part(self, store: &Store, result: Result<End, Failure>) -> Result<Done, Failure> {
-        let Self { mut sitting, .. } = self;
+    fn part(self, result: Result<End, Failure>) -> Result<Done, Failure> {
+        let Self {
+            mut sitting, store, ..
+        } = self;
         // Even where nobody reads any more, the answers are kept.
         let _ = sitting.tell(Msg::Quit);
         let over = sitting.view().stage == Stage::Result;
+        let asks_due = sitting.asks_due();
         let saved = sitting.close();
         let end = result?;
         match saved {
             Ok(()) if over => output::line("\nSaved.")?,
+            Ok(()) if asks_due => output::line("\nSaved. What is left stays due.")?,
             Ok(()) => output::line("\nSaved. The same command goes on from here.")?,
             Err(why) => {
                 return Err(Failure::unusable(format!(

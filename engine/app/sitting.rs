@@ -73,47 +73,7 @@ pub struct Notice {
 impl Sitting {
     /// Opens a lesson: resumes the last session where it was left unfinished, else starts one.
     pub fn open(lesson: &Arc<Lesson>, store: &Store, wish: Wish) -> Result<Self, Failure> {
-        let mut notices = Vec::new();
-        // What cannot be read is said again, and better, when trying to write.
-        let logs = store.logs().unwrap_or_default();
-        if let Err(why) = store.try_out() {
-            notices.push(Notice {
-                says: format!(
-                    "Your answers cannot be saved: {why}. They are kept in memory, and saving is tried again after every answer."
-                ),
-                place: Some(format!(
-                    "answers cannot be saved in {}",
-                    store.folder.display()
-                )),
-            });
-        }
-        for unreadable in &logs.unreadable {
-            let name = unreadable
-                .path
-                .file_name()
-                .unwrap_or_default()
-                .to_string_lossy();
-            if unreadable.is_newer {
-                notices.push(Notice {
-                    says: "A log was written by a newer version; it is left where it is, and \
-                           not read here."
-                        .into(),
-                    place: Some(format!("{name}: {}", unreadable.why)),
-                });
-                continue;
-            }
-            let moved = match store.set_aside(unreadable) {
-                Ok(aside) => format!(
-                    "set aside as {}",
-                    aside.file_name().unwrap_or_default().to_string_lossy()
-                ),
-                Err(_) => "left as it is".to_owned(),
-            };
-            notices.push(Notice {
-                says: "A log could not be read; it is kept, and nothing is written over it.".into(),
-                place: Some(format!("{name}: {}; {moved}", unreadable.why)),
-            });
-        }
+        let (logs, mut notices) = look_through(store);
         let unfinished = progress::unfinished(&lesson.id, &logs.records())
             .map(|at| &logs.readable[at])
             .filter(|log| !wish.new && wish.seed.is_none_or(|seed| seed == log.record.header.seed));
@@ -128,6 +88,25 @@ impl Sitting {
             }
         }
         Ok(Self::begin(lesson, store, &logs, wish, notices))
+    }
+
+    /// Asks items of a lesson that are due, in a log of their own; goes on where that was left.
+    pub fn ask_due(
+        lesson: &Arc<Lesson>,
+        store: &Store,
+        items: Vec<String>,
+    ) -> Result<Self, Failure> {
+        let (logs, notices) = look_through(store);
+        let unfinished = progress::unfinished_due(&lesson.id, &logs.records(), &items);
+        if let Some(log) = unfinished.map(|at| &logs.readable[at])
+            && let Some(writer) = store.resume(log)
+        {
+            return Ok(Self::resume(lesson, log, writer, notices));
+        }
+        let mut sitting = Self::begin(lesson, store, &logs, Wish::default(), notices);
+        // It asks for nothing but to be saved.
+        let _ = sitting.tell(Msg::AskDue(items));
+        Ok(sitting)
     }
 
     fn resume(lesson: &Arc<Lesson>, log: &Log, writer: Writer, mut notices: Vec<Notice>) -> Self {
@@ -243,6 +222,11 @@ impl Sitting {
     /// Whether an opinion is on its way.
     pub fn is_asking(&self) -> bool {
         !self.asked.is_empty()
+    }
+
+    /// Whether it asks nothing but what was due.
+    pub fn asks_due(&self) -> bool {
+        self.session.asks_due()
     }
 
     /// What is on the screen.
@@ -379,6 +363,52 @@ impl Sitting {
         }
         self.writer.close()
     }
+}
+
+/// Reads all logs, and says what the learner should know of them.
+fn look_through(store: &Store) -> (Logs, Vec<Notice>) {
+    let mut notices = Vec::new();
+    // What cannot be read is said again, and better, when trying to write.
+    let logs = store.logs().unwrap_or_default();
+    if let Err(why) = store.try_out() {
+        notices.push(Notice {
+            says: format!(
+                "Your answers cannot be saved: {why}. They are kept in memory, and saving is tried again after every answer."
+            ),
+            place: Some(format!(
+                "answers cannot be saved in {}",
+                store.folder.display()
+            )),
+        });
+    }
+    for unreadable in &logs.unreadable {
+        let name = unreadable
+            .path
+            .file_name()
+            .unwrap_or_default()
+            .to_string_lossy();
+        if unreadable.is_newer {
+            notices.push(Notice {
+                says: "A log was written by a newer version; it is left where it is, and \
+                       not read here."
+                    .into(),
+                place: Some(format!("{name}: {}", unreadable.why)),
+            });
+            continue;
+        }
+        let moved = match store.set_aside(unreadable) {
+            Ok(aside) => format!(
+                "set aside as {}",
+                aside.file_name().unwrap_or_default().to_string_lossy()
+            ),
+            Err(_) => "left as it is".to_owned(),
+        };
+        notices.push(Notice {
+            says: "A log could not be read; it is kept, and nothing is written over it.".into(),
+            place: Some(format!("{name}: {}; {moved}", unreadable.why)),
+        });
+    }
+    (logs, notices)
 }
 
 /// The thread that waited for a shader broke down.

@@ -4,10 +4,11 @@ use std::env;
 use std::io::{self, IsTerminal as _};
 
 use crate::cli::{Folders, Json, Learn};
+use crate::due::Due;
 use crate::exit::{Done, Failure};
 use crate::lessons::Shelf;
-use crate::sitting::{Sitting, Wish};
-use crate::{config, plain, tui};
+use crate::sitting::Wish;
+use crate::{config, output, plain, tui};
 
 /// The list of lessons on the screen; without a screen, the list as text.
 pub fn tutor(folders: &Folders) -> Result<Done, Failure> {
@@ -31,11 +32,23 @@ pub fn lesson(folders: &Folders, args: &Learn) -> Result<Done, Failure> {
         seed: args.seed,
     };
     let judge = config::read()?.judge;
-    if args.plain || !has_screen() {
-        let sitting = Sitting::open(lesson, &store, wish)?;
-        plain::run(sitting.with_second_opinions(judge), &store)
-    } else {
-        tui::run(&shelf, &store, judge, tui::Open::Lesson(lesson, wish))
+    let is_plain = args.plain || !has_screen();
+    if args.due {
+        let Some(due) = Due::within(&shelf, &store, lesson) else {
+            output::line("Nothing of this lesson is due.")?;
+            return Ok(Done::Fine);
+        };
+        return match is_plain {
+            true => plain::run_due(due, &store, judge),
+            false => tui::run(&shelf, &store, judge, tui::Open::Due(due)),
+        };
+    }
+    match is_plain {
+        true => {
+            let due = Due::elsewhere(&shelf, &store, lesson);
+            plain::run(lesson, wish, due, &store, judge)
+        }
+        false => tui::run(&shelf, &store, judge, tui::Open::Lesson(lesson, wish)),
     }
 }
 

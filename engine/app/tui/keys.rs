@@ -45,6 +45,8 @@ pub enum Action {
     NextFocus,
     /// On, where nothing waits for an answer.
     Forward,
+    /// First what is due again.
+    AskDue,
     /// Out of a field, out of the help.
     Leave,
     /// Hand in what the editor holds.
@@ -181,6 +183,7 @@ fn of_page(key: KeyEvent) -> Action {
         KeyCode::Char('s') => Action::Skip,
         KeyCode::Char('t') => Action::Hint,
         KeyCode::Char('i') => Action::Play,
+        KeyCode::Char('r') => Action::AskDue,
         KeyCode::Char('?') => Action::Help,
         KeyCode::Char('q') => Action::Quit,
         KeyCode::Esc => Action::Leave,

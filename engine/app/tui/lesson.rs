@@ -10,6 +10,7 @@ use super::draw::page::Page;
 use super::draw::style::Palette;
 use super::field::Field;
 use super::keys::{Action, Focus};
+use crate::due::Due;
 use crate::fingerprints::{Subject, fingerprint};
 use crate::sitting::{Request, Sitting};
 
@@ -27,8 +28,12 @@ const LOW: usize = 20;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Flow {
     Stay,
-    /// The lesson is left, or at its end.
+    /// The lesson is left.
     Leave,
+    /// It is at its end.
+    Finish,
+    /// What is due in other lessons comes first.
+    AskDue,
     /// The text in the field is wanted in the learner's own editor.
     OpenEditor,
     /// The picture in view is wanted under the arrow keys.
@@ -52,6 +57,8 @@ pub struct LessonScreen {
     pub window: usize,
     /// Said before the lesson starts, until a key is pressed.
     pub greeting: Vec<String>,
+    /// What is due in other lessons, until the first answer or page.
+    pub offer: Option<Due>,
     /// Leaving would lose something: the next `q` means it.
     pub leaving_unsaved: Option<String>,
     /// What the field and the page were made for.
@@ -65,7 +72,7 @@ pub struct LessonScreen {
 }
 
 impl LessonScreen {
-    pub fn new(sitting: Sitting, palette: Palette) -> Self {
+    pub fn new(sitting: Sitting, offer: Option<Due>, palette: Palette) -> Self {
         let shown = sitting.view().clone();
         let field = Field::of(&shown.input);
         let mut greeting: Vec<String> = sitting
@@ -85,6 +92,7 @@ impl LessonScreen {
             fitted: String::new(),
             window: 1,
             greeting,
+            offer,
             leaving_unsaved: None,
             laid_out_for: 80,
             palette,
@@ -232,6 +240,8 @@ impl LessonScreen {
                 return Flow::Play;
             }
             Action::Play => {}
+            Action::AskDue if self.offer.is_some() => return Flow::AskDue,
+            Action::AskDue => {}
             Action::Back => return self.send_if(self.shown.can.back, Msg::Back),
             Action::Skip => return self.skip(),
             Action::Hint => return self.send_if(self.shown.can.hint.is_some(), Msg::Hint),
@@ -435,6 +445,7 @@ impl LessonScreen {
 
     fn send(&mut self, msg: Msg) -> Flow {
         let clears = matches!(msg, Msg::Answer(_));
+        self.offer = None;
         if !clears {
             self.save_draft();
         }
@@ -445,7 +456,7 @@ impl LessonScreen {
         }
         self.refresh();
         if requests.contains(&Request::Leave) {
-            Flow::Leave
+            Flow::Finish
         } else {
             Flow::Stay
         }

@@ -31,11 +31,27 @@ pub struct Picker {
 #[must_use]
 pub enum Chosen {
     Nothing,
-    Lesson { lesson: Arc<Lesson> },
+    Lesson {
+        lesson: Arc<Lesson>,
+    },
+    /// What is due of it, alone.
+    Due {
+        lesson: Arc<Lesson>,
+    },
     Leave,
 }
 
 impl Picker {
+    /// A list of nothing, until there is a screen.
+    pub fn empty() -> Self {
+        Self {
+            entries: Vec::new(),
+            broken: Vec::new(),
+            at: 0,
+            said: None,
+        }
+    }
+
     pub fn new(shelf: &Shelf, store: &Store) -> Self {
         let entries = entries(shelf, store);
         // Where one left, else what is due, else what was never begun.
@@ -79,6 +95,13 @@ impl Picker {
             Action::Enter | Action::Forward => {
                 if let Some(entry) = self.entries.get(self.at) {
                     return Chosen::Lesson {
+                        lesson: Arc::clone(&entry.lesson),
+                    };
+                }
+            }
+            Action::AskDue => {
+                if let Some(entry) = self.entries.get(self.at) {
+                    return Chosen::Due {
                         lesson: Arc::clone(&entry.lesson),
                     };
                 }

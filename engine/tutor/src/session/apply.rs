@@ -5,7 +5,7 @@ use super::dialogue::{self, Asked, Reply, Turn};
 use super::event::{Event, Quote};
 use super::problem::{self, Problem, mix};
 use super::question::{Heard, Question, Second, Try};
-use super::screen::{Screen, faded_lines};
+use super::screen::{Screen, due_path, faded_lines};
 use crate::view::Stage;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -109,6 +109,11 @@ impl Session {
                 }
             }
             Event::Finished { grade, words } => self.finished = Some((*grade, words.clone())),
+            Event::DueAgain { items } => {
+                self.path = due_path(&self.lesson, items);
+                self.asks_due = true;
+                self.restart(Stage::Why);
+            }
             Event::LessonChanged { stage, .. } => self.restart(*stage),
         }
     }

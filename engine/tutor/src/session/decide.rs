@@ -88,6 +88,7 @@ impl Session {
             } => self.second_opinion_came(&item, attempt, by, said),
             Msg::Ran(ran) => self.ran(&ran),
             Msg::Looked(sight) => self.looked(&sight),
+            Msg::AskDue(items) => self.ask_due(items),
             Msg::SaveFailed(why) => Decided {
                 saving: Some(Saving::Failed(why)),
                 note: self.view.note.take(),
@@ -128,6 +129,15 @@ impl Session {
             decided.events.push(event);
         }
         decided
+    }
+
+    /// What is due is asked by a session of its own: one that has begun goes on as it is.
+    fn ask_due(&self, items: Vec<String>) -> Decided {
+        let is_new = self.trail.len() == 1 && *self.here() == Screen::Why;
+        match is_new && !self.asks_due {
+            true => Decided::event(Event::DueAgain { items }),
+            false => Decided::default(),
+        }
     }
 
     /// What stands open on the screen shown.

@@ -48,6 +48,8 @@ pub enum Msg {
     Looked(Sight),
     /// What came of the shader that [`Effect::Run`] asked to have run.
     Ran(Ran),
+    /// Ask these items alone, by their ids: they are due again. Only before anything else.
+    AskDue(Vec<String>),
     /// The log could not be written, and why.
     SaveFailed(String),
     /// Everything handed out by [`Effect::Save`] so far is on the disk.
@@ -394,6 +396,11 @@ pub enum Event {
         /// The result in a teacher's words.
         words: String,
     },
+    /// This session asks nothing but items of the lesson that were due again.
+    DueAgain {
+        /// Their ids.
+        items: Vec<String>,
+    },
     /// The lesson file or the program changed since; the stage starts again.
     LessonChanged {
         /// Hash of the lesson file from here on.
@@ -405,7 +412,7 @@ pub enum Event {
 
 impl Event {
     /// Every value of `kind` that this version writes.
-    pub const KINDS: [&str; 16] = [
+    pub const KINDS: [&str; 17] = [
         "next",
         "back",
         "revealed",
@@ -421,6 +428,7 @@ impl Event {
         "marked",
         "self-marked",
         "finished",
+        "due-again",
         "lesson-changed",
     ];
 
@@ -442,6 +450,7 @@ impl Event {
             | Event::Revealed { .. }
             | Event::Skip { .. }
             | Event::Finished { .. }
+            | Event::DueAgain { .. }
             | Event::LessonChanged { .. } => None,
         }
     }

@@ -52,6 +52,8 @@ pub struct Session {
     start: Start,
     /// The screens of a lesson in which nothing is missed.
     path: Vec<Screen>,
+    /// Nothing is asked but what is due again.
+    asks_due: bool,
     /// The screens seen, never empty.
     trail: Vec<Screen>,
     /// The one shown, an index of `trail`.
@@ -87,6 +89,7 @@ impl Session {
     pub fn new(lesson: Arc<Lesson>, start: Start) -> Session {
         let mut session = Session {
             path: screen::path(&lesson),
+            asks_due: false,
             trail: vec![Screen::Why],
             cursor: 0,
             stage: Stage::Why,
@@ -194,6 +197,11 @@ impl Session {
     /// The lesson taught.
     pub fn lesson(&self) -> &Arc<Lesson> {
         &self.lesson
+    }
+
+    /// Whether nothing is asked but items that were due again.
+    pub fn asks_due(&self) -> bool {
+        self.asks_due
     }
 
     fn here(&self) -> &Screen {

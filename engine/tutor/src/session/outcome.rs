@@ -155,6 +155,8 @@ impl Session {
                     let explain = self.lesson.explain(item);
                     explain.map_or_else(String::new, |e| format!("“{}”", e.title.text))
                 }
+                // In the lesson itself it is a part of the example.
+                Screen::Faded(_) if self.asks_due => "the worked example".to_owned(),
                 Screen::Why
                 | Screen::Step(_)
                 | Screen::Worked
@@ -162,13 +164,14 @@ impl Session {
                 | Screen::Reteach { .. }
                 | Screen::Result => continue,
             };
-            let (Screen::Practice(item) | Screen::Retest(item) | Screen::Explain { item, .. }) =
-                screen
-            else {
-                continue;
+            let item = match screen {
+                Screen::Explain { item, .. } => item.clone(),
+                _ => self
+                    .problem_key(screen)
+                    .map_or_else(String::new, |key| key.0),
             };
             items.push(ItemOutcome {
-                item: item.clone(),
+                item,
                 stage: screen.base_stage(&self.lesson),
                 title,
                 standing: self.standing(screen),
@@ -249,6 +252,9 @@ impl Session {
     /// the re-test.
     pub(super) fn verdict(&self) -> (Grade, String) {
         let items = self.items();
+        if self.asks_due {
+            return due_verdict(&items);
+        }
         let needed = |item: &&ItemOutcome| item.stage != Stage::Practice;
         let open: Vec<&str> = items
             .iter()
@@ -290,6 +296,13 @@ impl Session {
     pub(super) fn result_page(&self) -> Vec<Block> {
         let (grade, words) = self.finished.clone().unwrap_or_else(|| self.verdict());
         let says = match grade {
+            Grade::Pass | Grade::SelfMarked if self.asks_due => {
+                "Each comes back later, after a longer while than this time."
+            }
+            Grade::NotYet if self.asks_due => {
+                "That is why they were asked. What was not right at once comes back tomorrow, the \
+                 rest after a longer while than this time."
+            }
             Grade::Pass => "You can explain it, and you can compute it.",
             Grade::SelfMarked => {
                 "The judge left a part of it to you. An instructor may look at it again."
@@ -321,6 +334,9 @@ impl Session {
             });
         }
         blocks.extend(self.model());
+        if self.asks_due {
+            return blocks;
+        }
         blocks.push(paragraph(match grade {
             Grade::NotYet => "It is due again tomorrow.",
             Grade::Pass | Grade::SelfMarked => {
@@ -336,6 +352,7 @@ impl Session {
         let items = self.items();
         let mut lines = Vec::new();
         for (stage, name) in [
+            (Stage::Worked, "Worked example"),
             (Stage::Practice, "Exercises"),
             (Stage::Retest, "Fresh numbers"),
         ] {
@@ -387,6 +404,24 @@ impl Session {
         }
         said.into_iter().map(|line| vec![text(line)]).collect()
     }
+}
+
+/// How many of the items that were due are right.
+fn due_verdict(items: &[ItemOutcome]) -> (Grade, String) {
+    let right = items.iter().filter(|item| item.standing.counts()).count();
+    let own = items.iter().any(|it| it.standing == Standing::SelfMarked);
+    let words = match (right, items.len()) {
+        (_, 0) => "NOTHING is due here any more".to_owned(),
+        (1, 1) => "RIGHT".to_owned(),
+        (right, all) if right == all => format!("RIGHT: all {}", count(all)),
+        (right, all) => format!("RIGHT: {} of {}", count(right), count(all)),
+    };
+    let grade = match (right == items.len(), own) {
+        (true, false) => Grade::Pass,
+        (true, true) => Grade::SelfMarked,
+        (false, _) => Grade::NotYet,
+    };
+    (grade, words)
 }
 
 fn are(n: usize) -> &'static str {

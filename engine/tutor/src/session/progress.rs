@@ -81,6 +81,7 @@ pub fn summary(lesson: &str, records: &[Record], today: &str) -> LessonSummary {
         state: own
             .iter()
             .rev()
+            .filter(|record| due_items(record).is_none())
             .map(|record| state(record))
             .find(|state| *state != LessonState::New)
             .unwrap_or(LessonState::New),
@@ -100,10 +101,67 @@ pub fn noted_slips(lesson: &str, records: &[Record]) -> Vec<NotedSlip> {
 pub fn unfinished(lesson: &str, records: &[Record]) -> Option<usize> {
     let mut own: Vec<usize> = (0..records.len())
         .filter(|at| records[*at].header.lesson == lesson)
+        .filter(|at| due_items(&records[*at]).is_none())
         .collect();
     own.sort_by(|a, b| last_time(&records[*a]).cmp(last_time(&records[*b])));
     let latest = own.pop()?;
     matches!(state(&records[latest]), LessonState::InProgress { .. }).then_some(latest)
+}
+
+/// The items that a log's session asked because they were due; `None` where it taught the lesson.
+pub fn due_items(record: &Record) -> Option<&[String]> {
+    let mut events = record.entries.iter().map(|entry| &entry.event);
+    events.find_map(|event| match event {
+        Event::DueAgain { items } => Some(items.as_slice()),
+        _ => None,
+    })
+}
+
+/// The latest log that asked due items of a lesson and was left, by position, where what it did
+/// not come to is still `due`.
+pub fn unfinished_due(lesson: &str, records: &[Record], due: &[String]) -> Option<usize> {
+    let own = (0..records.len()).filter(|at| records[*at].header.lesson == lesson);
+    let latest = own
+        .filter(|at| due_items(&records[*at]).is_some())
+        .max_by(|a, b| last_time(&records[*a]).cmp(last_time(&records[*b])))?;
+    let record = &records[latest];
+    let looked = record_looks(record);
+    let mut left = due_items(record)?
+        .iter()
+        .filter(|item| !looked.iter().any(|(other, _)| other == item));
+    let goes_on = matches!(state(record), LessonState::InProgress { .. });
+    (goes_on && left.all(|item| due.contains(item))).then_some(latest)
+}
+
+/// The items to ask first, by lesson in the order given: of all that is due the `most` that have
+/// waited longest.
+pub fn ask_first(due: &[(&str, &[DueItem])], most: usize) -> Vec<(String, Vec<String>)> {
+    let all = due.iter().flat_map(|(_, items)| items.iter());
+    let mut waits: Vec<i64> = all.map(|item| item.overdue).collect();
+    waits.sort_unstable_by(|a, b| b.cmp(a));
+    let mut left = most;
+    // As many of those that waited as long as the last one as there is room for.
+    let Some(least) = waits.get(most.saturating_sub(1)).or(waits.last()).copied() else {
+        return Vec::new();
+    };
+    let mut asked: Vec<(String, Vec<String>)> = due
+        .iter()
+        .map(|(lesson, _)| ((*lesson).to_owned(), Vec::new()))
+        .collect();
+    for is_longer in [true, false] {
+        for ((_, asked), (_, items)) in asked.iter_mut().zip(due) {
+            let wanted = items.iter().filter(|item| match is_longer {
+                true => item.overdue > least,
+                false => item.overdue == least,
+            });
+            for item in wanted.take(left) {
+                asked.push(item.item.clone());
+                left -= 1;
+            }
+        }
+    }
+    asked.retain(|(_, items)| !items.is_empty());
+    asked
 }
 
 /// How the session of a log stands.

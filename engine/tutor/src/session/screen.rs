@@ -173,3 +173,25 @@ pub(crate) fn path(lesson: &Lesson) -> Vec<Screen> {
     path.push(Screen::Result);
     path
 }
+
+/// The screens that ask items again, those that a lesson has, in its order.
+pub(crate) fn due_path(lesson: &Lesson, items: &[String]) -> Vec<Screen> {
+    let is_due = |screen: &Screen| match screen {
+        Screen::Practice(item) | Screen::Explain { item, .. } => items.contains(item),
+        // Its last round asks for everything that the others ask for.
+        Screen::Faded(round) => {
+            let worked = lesson.worked.as_ref();
+            let faded = worked.and_then(|worked| worked.faded.as_ref());
+            faded.is_some_and(|faded| {
+                faded.rounds.len() as u32 == *round && items.contains(&faded.exercise.id.text)
+            })
+        }
+        Screen::Result => true,
+        Screen::Why
+        | Screen::Step(_)
+        | Screen::Worked
+        | Screen::Retest(_)
+        | Screen::Reteach { .. } => false,
+    };
+    path(lesson).into_iter().filter(is_due).collect()
+}

@@ -61,7 +61,10 @@ impl Session {
         let (heading, blocks) = self.page(&screen);
         let can = self.can();
         self.view = View {
-            lesson_title: self.lesson.title.text.clone(),
+            lesson_title: match self.asks_due {
+                true => format!("Due again: {}", self.lesson.title.text),
+                false => self.lesson.title.text.clone(),
+            },
             stage: screen.stage(&self.lesson),
             stages: self.stages(&screen),
             place: self.place(&screen),

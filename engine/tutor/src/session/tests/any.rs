@@ -68,6 +68,7 @@ pub(crate) fn msg() -> impl Strategy<Value = Msg> {
         2 => (0..4_usize, any::<bool>()).prop_map(|(point, said)| Msg::Mark { point, said }),
         1 => Just(Msg::ChecklistDone),
         2 => opinion(),
+        1 => vec(item(), 0..4).prop_map(Msg::AskDue),
         1 => Just(Msg::Saved),
         1 => text().prop_map(Msg::SaveFailed),
         1 => Just(Msg::Quit),
@@ -283,6 +284,7 @@ pub(crate) fn event() -> impl Strategy<Value = Event> {
             text()
         )
             .prop_map(|(grade, words)| Event::Finished { grade, words }),
+        vec(item(), 0..4).prop_map(|items| Event::DueAgain { items }),
         (text(), stage()).prop_map(|(hash, stage)| Event::LessonChanged { hash, stage }),
     ]
 }

@@ -5,6 +5,7 @@ use crate::view::Input;
 pub(crate) mod any;
 mod consult;
 mod dialogue;
+mod due;
 mod explain;
 mod flow;
 mod listing;
