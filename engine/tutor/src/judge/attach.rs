@@ -113,6 +113,37 @@ impl Reading {
             }
             self.statements.push(statement);
         }
+        self.owed(lexicon, &mentions[QUANTITY]);
+    }
+
+    /// "It is dark there because of Fresnel", "dark there, by Fresnel": said of Fresnel too.
+    fn owed(&mut self, lexicon: &Lexicon, mentions: &[Mention]) {
+        let fresnel = lexicon.id("fresnel");
+        let word = |tokens: &[Token], i: usize| -> bool {
+            matches!(
+                tokens[i].word.as_str(),
+                "because" | "due" | "by" | "thanks" | "via" | "through" | "your" | "," | "owing"
+            )
+        };
+        for m in mentions.iter().filter(|m| Some(m.concept) == fresnel) {
+            let owed = (m.start.saturating_sub(3)..m.start)
+                .any(|i| self.sentence[i] == self.sentence[m.start] && word(&self.tokens, i));
+            if !owed {
+                continue;
+            }
+            let here = self.sentence[m.start];
+            let (from, to) = (m.start.saturating_sub(12), m.end + 9);
+            self.each_between(from, to, |s| {
+                let near = s.sentence == here && s.about[QUANTITY].is_none();
+                if near {
+                    s.about[QUANTITY] = Some(About {
+                        concepts: vec![m.concept],
+                        held: Held::Inherited,
+                        tokens: (m.start, m.end),
+                    });
+                }
+            });
+        }
     }
 
     /// "One should not divide a second time": so somebody does.
@@ -191,9 +222,16 @@ impl Reading {
                 .get(next.wrapping_sub(1))
                 .is_none_or(|m| m.start < first)
             && let Some(m) = list[..next.min(list.len())].last().filter(|m| {
-                m.end + 1 >= first
-                    && (m.class == PLACE && self.tokens[first].is("which")
-                        || m.class == QUANTITY && m.end == first)
+                m.end + 2 >= first
+                    && (m.class == PLACE && m.end + 1 >= first && self.tokens[first].is("which")
+                        || m.class == QUANTITY
+                            && (m.end..first).len() <= 2
+                            && (m.end..first).all(|i| {
+                                matches!(
+                                    self.tokens[i].word.as_str(),
+                                    "," | "effect" | "term" | "factor" | "reflectance" | "law"
+                                )
+                            }))
             })
         {
             return Some(self.with_partner(list, m, Held::Local));
@@ -415,7 +453,7 @@ impl Reading {
             (m.start.saturating_sub(3)..m.start).any(|i| {
                 let compares = matches!(
                     self.tokens[i].word.as_str(),
-                    "than" | "against" | "compared" | "unlike"
+                    "than" | "against" | "compared" | "unlike" | "opposed"
                 ) || grammar::compares(&self.tokens, i);
                 compares && self.clause[i] == self.clause[m.start]
             })

@@ -154,7 +154,7 @@ impl Reading {
     fn questions(&self) -> (Vec<bool>, bool) {
         let mut asked = vec![false; self.sentences()];
         let mut first = true;
-        let mut asks = false;
+        let (mut asks, mut shy) = (false, false);
         let mut stated = false;
         for (at, token) in self.tokens.iter().enumerate() {
             if first && matches!(token.kind, Kind::Word | Kind::Value) {
@@ -164,6 +164,7 @@ impl Reading {
                 asked[self.sentence[at]] =
                     !hedged && next.is_some_and(|n| grammar::inverts(&token.word, n));
                 asks &= !hedged;
+                shy = hedged;
                 first = false;
             }
             if token.ends_sentence() {
@@ -173,13 +174,15 @@ impl Reading {
                         next.word.as_str(),
                         "no" | "not" | "nope" | "never" | "nah" | "hardly" | "wrong" | "forget"
                     )
-                }) || starts_with(&self.tokens, at + 1, &["on", "the", "contrary"])
+                }) || starts_with(&self.tokens, at + 1, &["i", "doubt"])
+                    || starts_with(&self.tokens, at + 1, &["on", "the", "contrary"])
                     || starts_with(&self.tokens, at + 1, &["quite", "the", "opposite"])
                     || starts_with(&self.tokens, at + 1, &["that", "is", "a", "myth"]);
                 asked[self.sentence[at]] |= token.kind == Kind::Question && (asks || refused);
-                stated |= !first && (token.kind != Kind::Question || !asks && self.reasons(at));
+                let held = !asks && (self.reasons(at) || self.is_tag(at)) || shy;
+                stated |= !first && (token.kind != Kind::Question || held);
                 first = true;
-                asks = false;
+                (asks, shy) = (false, false);
             }
         }
         stated |= !first;
@@ -197,6 +200,27 @@ impl Reading {
                 let thinks = word(i) == "i" && matches!(word(i + 1), "think" | "guess" | "believe");
                 thinks || matches!(word(i), "because" | "since" | "cause")
             })
+    }
+
+    /// "It is 0/0, right?", "it gets darker, doesn't it?": who wants a yes has said it.
+    fn is_tag(&self, end: usize) -> bool {
+        let word = |i: usize| self.tokens.get(i).map_or("", |t| t.word.as_str());
+        let parted = (end.saturating_sub(5)..end).rev().find(|&i| {
+            self.tokens[i].kind == Kind::Comma && self.sentence[i] == self.sentence[end]
+        });
+        let Some(comma) = parted else { return false };
+        let first = word(comma + 1);
+        match end - comma - 1 {
+            1 => matches!(
+                first,
+                "right" | "no" | "yes" | "correct" | "eh" | "innit" | "ok" | "okay"
+            ),
+            2..=4 => {
+                grammar::asks(first)
+                    && (comma + 2..end).any(|i| matches!(word(i), "not" | "it" | "they"))
+            }
+            _ => false,
+        }
     }
 
     /// "Is it maybe that ...?", "Isn't it that ...?": says it, if shyly.

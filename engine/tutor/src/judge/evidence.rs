@@ -314,9 +314,11 @@ impl Weights {
         id: &str,
         says: &str,
     ) -> Option<Weights> {
-        let mut lines = text.lines();
         let head = format!("= {item} {id} ");
-        let bias = lines.find_map(|line| line.strip_prefix(&head))?;
+        let opens = |at: &usize| *at == 0 || text.as_bytes()[at - 1] == b'\n';
+        let at = text.match_indices(&head).map(|(at, _)| at).find(opens)?;
+        let mut lines = text[at + head.len()..].lines();
+        let bias = lines.next()?;
         if lines.next()? != says {
             return None;
         }

@@ -128,7 +128,7 @@ pub fn compares(tokens: &[Token], at: usize) -> bool {
         "than" => !at
             .checked_sub(1)
             .is_some_and(|i| matches!(tokens[i].word.as_str(), "rather" | "other")),
-        "compared" => true,
+        "compared" | "outshines" | "outshine" | "outshining" | "outglows" | "outdoes" => true,
         // "Five orders of magnitude above the other."
         "above" | "over" => at
             .checked_sub(1)
@@ -384,6 +384,14 @@ pub fn names_others(word: &str) -> bool {
             | "someone"
             | "somebody"
             | "boss"
+            | "students"
+            | "beginners"
+            | "learners"
+            | "folk"
+            | "folks"
+            | "guys"
+            | "colleagues"
+            | "anyone"
     )
 }
 
@@ -494,6 +502,8 @@ pub const DISMISSALS: &[&[&str]] = &[
     &["common", "mistake"],
     &["classic", "mistake"],
     &["is", "a", "misconception"],
+    &[",", "i", "dispute"],
+    &[",", "i", "doubt"],
     &["are", "the", "classic"],
 ];
 
@@ -552,6 +562,8 @@ pub const REPORTS: &[&[&str]] = &[
     &["rather", "than"],
     &["anything", "but"],
     &["far", "from"],
+    &["not", "buy"],
+    &["doubt", "that"],
     &["in", "place", "of"],
     &["as", "opposed", "to"],
     &["fails", "to"],

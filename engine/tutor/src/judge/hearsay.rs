@@ -3,7 +3,7 @@
 
 use super::claim::conflicts;
 use super::grammar;
-use super::lexicon::{CLASSES, Lexicon, QUANTITY, Role};
+use super::lexicon::{CAUSE, CLASSES, Lexicon, QUANTITY, Role};
 use super::parse::{Reading, Statement, starts_with};
 use super::text::{Kind, Token};
 
@@ -54,6 +54,8 @@ impl Reading {
     pub fn hearsay(&mut self, lexicon: &Lexicon) {
         self.reported();
         self.supposed();
+        self.unreal(lexicon);
+        self.something_else();
         self.retracted();
         self.torn(lexicon);
     }
@@ -109,9 +111,55 @@ impl Reading {
         }
     }
 
+    /// "Were it smooth, the two would agree", "Had the rim been dark, ...": nothing of it is so,
+    /// but what a light or a paint would do, which is asked for.
+    fn unreal(&mut self, lexicon: &Lexicon) {
+        for at in 0..self.tokens.len() {
+            let opens = at == 0 || self.sentence[at - 1] != self.sentence[at];
+            let word = |i: usize| self.tokens.get(i).map_or("", |t| t.word.as_str());
+            let inverted = matches!(word(at), "were" | "had")
+                && (matches!(
+                    word(at + 1),
+                    "it" | "this" | "they" | "there" | "the" | "a" | "h" | "n" | "d"
+                ));
+            let would = |i: &usize| matches!(word(*i), "would" | "could" | "might");
+            let to = (at + REACH).min(self.tokens.len());
+            let end = (at..to)
+                .find(|&i| self.sentence[i] != self.sentence[at])
+                .unwrap_or(to);
+            if !opens || !inverted || !(at..end).any(|i| would(&i)) {
+                continue;
+            }
+            let artist = lexicon.id("artist");
+            let of_artist = |s: &Statement| {
+                let cause = s.about[CAUSE].as_ref();
+                cause.is_some_and(|it| it.concepts.iter().any(|&id| Some(id) == artist))
+            };
+            self.each_between(at, end, |s| s.void |= !of_artist(s));
+        }
+    }
+
+    /// "What falls off is how much you see of the inside": not what was asked about.
+    fn something_else(&mut self) {
+        for at in 0..self.tokens.len() {
+            let opens = at == 0 || self.clause[at - 1] != self.clause[at];
+            if !opens || !matches!(self.tokens[at].word.as_str(), "what" | "whatever") {
+                continue;
+            }
+            let to = (at + 14).min(self.tokens.len());
+            let is = (at + 1..to)
+                .take_while(|&i| self.sentence[i] == self.sentence[at])
+                .find(|&i| self.tokens[i].is("is"));
+            let how = |i: usize| self.tokens.get(i + 1).is_some_and(|t| t.is("how"));
+            if let Some(end) = is.filter(|&i| how(i)) {
+                self.each_between(at, end, |s| s.void = true);
+            }
+        }
+    }
+
     /// Whether somebody else is the subject of the verb of speech that stands here.
     fn others_speak(&self, at: usize) -> bool {
-        (at.saturating_sub(3)..at).rev().any(|i| {
+        (at.saturating_sub(5)..at).rev().any(|i| {
             let word = self.tokens[i].word.as_str();
             self.sentence[i] == self.sentence[at]
                 && (grammar::names_others(word)
@@ -145,6 +193,12 @@ impl Reading {
                 match word(i) {
                     "wrong" | "mistaken" | "false" | "nonsense" | "rubbish" | "backwards"
                     | "incorrect" | "untrue" | "myth" => they,
+                    // "People say it does. It doesn't."
+                    "it" | "they" | "that" | "this" if from + 1 >= i => {
+                        matches!(word(i + 1), "is" | "are" | "does" | "do")
+                            && matches!(word(i + 2), "not" | "so")
+                            && matches!(word(i + 3), "" | "," | "." | ";" | "--" | "only" | "at")
+                    }
                     "disagree" => true,
                     "look" => word(i + 1) == "again",
                     "i" => {

@@ -169,6 +169,18 @@ impl Atom {
                 |ids: &[Id], name: &str| ids.iter().any(|&id| lexicon.concept(id).name == name);
             let about = statement.about[class].as_ref();
             if wanted.is_empty() {
+                // "Nothing is wrong with the D": of the line as a whole it says nothing.
+                let part = |name: &str| matches!(name, "d" | "fresnel" | "f0" | "ndotl" | "ndotv");
+                if class == QUANTITY
+                    && ears.strict
+                    && is(&self.anchor, "correct")
+                    && about.is_some_and(|a| {
+                        let mut names = a.concepts.iter().map(|&id| &lexicon.concept(id).name);
+                        a.held == Held::Local && names.all(|name| part(name))
+                    })
+                {
+                    score *= 0.45;
+                }
                 // What an artist might have done is not what the picture shows.
                 if class == CAUSE
                     && about.is_some_and(|a| a.held >= Held::Inherited && is(&a.concepts, "artist"))

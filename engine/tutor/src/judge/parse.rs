@@ -142,7 +142,7 @@ pub fn read(lexicon: &Lexicon, tokens: Vec<Token>, setting: &Setting, mute: &[bo
     if question_known && setting.order[SURFACE].len() < 2 {
         matches.retain(|m| !tokens[m.start].word.starts_with("#rough"));
     }
-    matches.retain(|m| !is_verb(&tokens, m));
+    matches.retain(|m| !is_verb(&tokens, m) && !is_tag(&tokens, m));
     let (clause, sentence) = clauses(lexicon, &tokens, &matches);
     let denied = denials(lexicon, &tokens, &matches, &clause, &sentence);
     suppose(lexicon, &tokens, &mut matches, &sentence, setting);
@@ -269,6 +269,20 @@ fn is_verb(tokens: &[Token], found: &Match) -> bool {
             .checked_sub(1)
             .is_some_and(|i| subject(&tokens[i].word))
         && tokens.get(found.end).is_some_and(|t| t.kind == Kind::Word)
+}
+
+/// "It is 0/0, right?" calls nothing right.
+fn is_tag(tokens: &[Token], found: &Match) -> bool {
+    found.end == found.start + 1
+        && found.start > 0
+        && matches!(
+            tokens[found.start].word.as_str(),
+            "right" | "correct" | "ok" | "okay"
+        )
+        && tokens[found.start - 1].kind == Kind::Comma
+        && tokens
+            .get(found.end)
+            .is_some_and(|t| t.kind == Kind::Question)
 }
 
 /// Places, surfaces and facets named inside a longer expression: the mirror of "a perfect
