@@ -1,26 +1,31 @@
 //! A plot drawn with characters: axes with round numbers at their exact places, curves in
-//! braille and other marks, logarithms where asked.
+//! braille, each with dashes of its own, logarithms where asked.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::style::{Color, Style};
-use ratatui::symbols::Marker;
+use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget as _;
-use ratatui::widgets::canvas::{Canvas, Line as Stroke};
 use tutor::prose::PlotView;
 use unicode_width::UnicodeWidthStr as _;
 
 use super::style::Palette;
 use crate::text::short;
 
-/// The marks of the curves, so that they are told apart without colours.
-const MARKERS: [(Marker, &str); 4] = [
-    (Marker::Braille, "⠒⠒"),
-    (Marker::Dot, "••"),
-    (Marker::HalfBlock, "▀▄"),
-    (Marker::Bar, "▄▄"),
+/// The dashes of the curves, so that they are told apart without colours: which dots of a run are
+/// drawn, and what that looks like.
+const DASHES: [(&[bool], &str); 4] = [
+    (&[true], "⠒⠒⠒⠒"),
+    (&[true, true, true, true, false, false], "⠒⠒ ⠒⠒"),
+    (&[true, false], "⠂⠂⠂⠂"),
+    (
+        &[true, true, true, true, false, false, true, false, false],
+        "⠒⠒ ⠂ ⠒⠒",
+    ),
 ];
+
+/// A curve of at most so many points was measured at each, and shows them.
+const FEW: usize = 16;
 
 /// Rows of a plot of that width: title, vertical label, chart, numbers, horizontal label, legend.
 pub fn height(plot: &PlotView, width: u16) -> u16 {
@@ -76,16 +81,11 @@ pub fn draw(plot: &PlotView, palette: Palette, area: Rect, buffer: &mut Buffer) 
         .right_aligned()
         .render(row(chart.bottom() + 2), buffer);
 
-    for (index, (_, points)) in plot.series.iter().enumerate() {
-        let marker = MARKERS[index % MARKERS.len()].0;
-        let colour = style_of(plot, index, palette).fg.unwrap_or(Color::Reset);
-        curve(points, marker, colour, (&x, &y), chart, buffer);
-    }
+    draw_curves(plot, palette, (&x, &y), chart, buffer);
     for (_, at, value) in &plot.marks {
         if let (Some(at), Some(value)) = (x.share(*at), y.share(*value)) {
-            let column = (at * f64::from(chart.width - 1)).round() as u16;
-            let row = ((1.0 - value) * f64::from(chart.height - 1)).round() as u16;
-            buffer.set_string(chart.x + column, chart.y + row, "◆", palette.key());
+            let (column, row) = cell_of(chart, at, value);
+            buffer.set_string(column, row, "◆", palette.key());
         }
     }
     for (index, line) in legend.into_iter().enumerate() {
@@ -101,31 +101,108 @@ fn style_of(plot: &PlotView, index: usize, palette: Palette) -> Style {
     }
 }
 
-/// A curve as strokes between its neighbouring points.
-fn curve(
-    points: &[(f64, f64)],
-    marker: Marker,
-    colour: Color,
+/// The dots of the curves, eight to a cell, and which curve drew there last.
+struct Dots {
+    columns: usize,
+    rows: usize,
+    cells: Vec<(u8, usize)>,
+}
+
+impl Dots {
+    fn new(chart: Rect) -> Self {
+        let (columns, rows) = (usize::from(chart.width), usize::from(chart.height));
+        let cells = vec![(0, 0); columns * rows];
+        Self {
+            columns,
+            rows,
+            cells,
+        }
+    }
+
+    /// The dot of a place, both from 0 to 1, the second from the bottom.
+    fn at(&self, (x, y): (f64, f64)) -> (f64, f64) {
+        let most = |cells: usize, dots: usize| (cells * dots) as f64 - 1.0;
+        (x * most(self.columns, 2), (1.0 - y) * most(self.rows, 4))
+    }
+
+    fn set(&mut self, x: usize, y: usize, curve: usize) {
+        // As Unicode numbers them: three down on the left, three on the right, then the lowest.
+        const BITS: [[u8; 2]; 4] = [[0x01, 0x08], [0x02, 0x10], [0x04, 0x20], [0x40, 0x80]];
+        if let Some(cell) = self.cells.get_mut(y / 4 * self.columns + x / 2) {
+            *cell = (cell.0 | BITS[y % 4][x % 2], curve);
+        }
+    }
+
+    /// Strokes between neighbouring places, broken where there is none.
+    fn curve(&mut self, places: &[Option<(f64, f64)>], curve: usize) {
+        let dashes = DASHES[curve % DASHES.len()].0;
+        let mut walked = 0;
+        let mut last = None;
+        for pair in places.windows(2) {
+            let [Some(from), Some(to)] = [pair[0], pair[1]] else {
+                continue;
+            };
+            let (from, to) = (self.at(from), self.at(to));
+            let (across, down) = (to.0 - from.0, to.1 - from.1);
+            let steps = across.abs().max(down.abs()).ceil().max(1.0);
+            for step in 0..=steps as usize {
+                let share = step as f64 / steps;
+                let [x, y] = [from.0 + share * across, from.1 + share * down].map(f64::round);
+                let dot = (x as usize, y as usize);
+                if last.replace(dot) == Some(dot) {
+                    continue;
+                }
+                if dashes[walked % dashes.len()] {
+                    self.set(dot.0, dot.1, curve);
+                }
+                walked += 1;
+            }
+        }
+    }
+}
+
+/// All curves. Where two share a cell both have their dots in it.
+fn draw_curves(
+    plot: &PlotView,
+    palette: Palette,
     (x, y): (&Scale, &Scale),
     chart: Rect,
     buffer: &mut Buffer,
 ) {
-    let places: Vec<Option<(f64, f64)>> = points
-        .iter()
-        .map(|(at, value)| Some((x.share(*at)?, y.share(*value)?)))
-        .collect();
-    Canvas::default()
-        .marker(marker)
-        .x_bounds([0.0, 1.0])
-        .y_bounds([0.0, 1.0])
-        .paint(|canvas| {
-            for pair in places.windows(2) {
-                if let [Some((x1, y1)), Some((x2, y2))] = *pair {
-                    canvas.draw(&Stroke::new(x1, y1, x2, y2, colour));
-                }
-            }
-        })
-        .render(chart, buffer);
+    let mut dots = Dots::new(chart);
+    let place = |(at, value): &(f64, f64)| Some((x.share(*at)?, y.share(*value)?));
+    for (index, (_, points)) in plot.series.iter().enumerate() {
+        let places: Vec<_> = points.iter().map(place).collect();
+        dots.curve(&places, index);
+    }
+    for (row, cells) in dots.cells.chunks(dots.columns.max(1)).enumerate() {
+        for (column, &(bits, curve)) in cells.iter().enumerate().filter(|(_, cell)| cell.0 != 0) {
+            let letter = char::from_u32(0x2800 + u32::from(bits)).unwrap_or(' ');
+            let at = (chart.x + column as u16, chart.y + row as u16);
+            buffer.set_string(
+                at.0,
+                at.1,
+                letter.to_string(),
+                style_of(plot, curve, palette),
+            );
+        }
+    }
+    for (index, (_, points)) in plot.series.iter().enumerate() {
+        let few = points.iter().filter(|_| points.len() <= FEW);
+        for (at, value) in few.filter_map(place) {
+            let (column, row) = cell_of(chart, at, value);
+            buffer.set_string(column, row, "•", style_of(plot, index, palette));
+        }
+    }
+}
+
+/// The cell of a place, both from 0 to 1, the second from the bottom.
+fn cell_of(chart: Rect, x: f64, y: f64) -> (u16, u16) {
+    let cell = |share: f64, cells: u16| (share * f64::from(cells - 1)).round() as u16;
+    (
+        chart.x + cell(x, chart.width),
+        chart.y + cell(1.0 - y, chart.height),
+    )
 }
 
 /// The two axes, their ticks and numbers, around the chart.
@@ -161,7 +238,7 @@ fn draw_axes(x: &Scale, y: &Scale, palette: Palette, chart: Rect, buffer: &mut B
 /// What the curves and marks are, as many to a line as fit.
 fn legend(plot: &PlotView, width: usize, palette: Option<Palette>) -> Vec<Line<'static>> {
     let curves = plot.series.iter().enumerate().map(|(index, (label, _))| {
-        let sign = MARKERS[index % MARKERS.len()].1;
+        let sign = DASHES[index % DASHES.len()].1;
         (
             sign,
             label.clone(),
@@ -218,9 +295,12 @@ impl Scale {
             &[1.0]
         };
         let span = (high - low).max(f64::MIN_POSITIVE);
-        let ticks = (first..=last)
+        let decades = (first..=last)
             .step_by(stride)
-            .flat_map(|power| within.iter().map(move |step| step * 10f64.powi(power)))
+            .flat_map(|power| within.iter().map(move |step| step * 10f64.powi(power)));
+        let ticks = doublings(from, to, most).unwrap_or_else(|| decades.collect());
+        let ticks = ticks
+            .into_iter()
             .map(|value| ((value.log10() - low) / span, short(value)))
             .filter(|(share, _)| (-1e-9..=1.0 + 1e-9).contains(share))
             .collect();
@@ -246,6 +326,14 @@ impl Scale {
             .find(enough)
             .unwrap_or(10.0 * power);
         let step = angle.filter(|_| degrees && rough > 2.0).unwrap_or(step);
+        // A tick that lies just beyond an end becomes the end.
+        let near = |end: f64, tick: f64| match (end - tick).abs() < 0.025 * span {
+            true => tick,
+            false => end,
+        };
+        let from = near(from, (from / step).floor() * step);
+        let to = near(to, (to / step).ceil() * step);
+        let span = to - from;
         let first = (from / step - 1e-9).ceil() as i64;
         let last = (to / step + 1e-9).floor() as i64;
         let ticks = (first..=last.min(first + 20))
@@ -273,6 +361,18 @@ impl Scale {
     }
 }
 
+/// Powers of two, where both ends are: such are the sizes of pictures.
+fn doublings(from: f64, to: f64, most: usize) -> Option<Vec<f64>> {
+    let power = |end: f64| {
+        let exponent = end.log2().round();
+        (exponent.exp2() == end && (1.0..=20.0).contains(&exponent)).then_some(exponent as i32)
+    };
+    let (first, last) = (power(from)?, power(to)?);
+    let every = (last.abs_diff(first) as usize).div_ceil(most).max(1);
+    let powers = (first..=last).step_by(every);
+    Some(powers.map(|power| f64::from(power).exp2()).collect())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -294,7 +394,15 @@ mod tests {
 
     #[test]
     fn axes_have_round_numbers() {
-        check((0.02, 1.0), false, 5, &["0.2", "0.4", "0.6", "0.8", "1"]);
+        check((0.1, 1.0), false, 5, &["0.2", "0.4", "0.6", "0.8", "1"]);
+        check(
+            (0.02, 0.98),
+            false,
+            5,
+            &["0", "0.2", "0.4", "0.6", "0.8", "1"],
+        );
+        check((32.0, 512.0), true, 8, &["32", "64", "128", "256", "512"]);
+        check((32.0, 512.0), true, 3, &["32", "128", "512"]);
         check((0.0, 12.43), false, 4, &["0", "5", "10"]);
         check(
             (-60.0, 90.0),
@@ -318,6 +426,20 @@ mod tests {
         check_scale(&degrees(90.0, 2), &["0", "45", "90"]);
         check_scale(&degrees(90.0, 5), &["0", "30", "60", "90"]);
         check_scale(&degrees(4.0, 4), &["0", "1", "2", "3", "4"]);
+    }
+
+    #[test]
+    fn curves_keep_their_dots_and_their_dashes() {
+        let mut dots = Dots::new(Rect::new(0, 0, 6, 2));
+        dots.curve(&[Some((0.0, 1.0)), Some((1.0, 1.0))], 0);
+        assert_eq!(dots.cells[..6], [(0x09, 0); 6]);
+        // Four dots, then none for two; what another curve drew stays.
+        dots.curve(&[Some((0.0, 6.0 / 7.0)), Some((1.0, 6.0 / 7.0))], 1);
+        let both = |curve| (0x1b, curve);
+        let expected = [both(1), both(1), (0x09, 0)].repeat(2);
+        assert_eq!(dots.cells[..6], expected);
+        dots.curve(&[Some((0.0, 0.0)), None, Some((1.0, 0.0))], 2);
+        assert_eq!(dots.cells[6..], [(0, 0); 6], "nothing across a gap");
     }
 
     #[test]
