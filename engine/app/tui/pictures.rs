@@ -11,6 +11,7 @@ use image::{DynamicImage, RgbaImage};
 use ratatui::layout::Size;
 use ratatui_image::Resize;
 use ratatui_image::picker::{Picker, ProtocolType};
+use ratatui_image::protocol::halfblocks::Halfblocks;
 use ratatui_image::protocol::kitty::Kitty;
 use ratatui_image::sliced::SlicedProtocol;
 use tutor::Lesson;
@@ -78,9 +79,15 @@ impl Pictures {
     }
 }
 
-/// Rows that three square panels side by side take in `width` columns.
+/// Rows that three square panels and the gaps between them fill in `width` columns: a row that
+/// they filled in part would show a black bar.
 pub fn rows_for(width: u16) -> u16 {
-    (width / 6).max(3)
+    (width * 8 / 49).max(3)
+}
+
+/// Columns that they take in so many rows, of `width` at most.
+pub fn columns_in(rows: u16, width: u16) -> u16 {
+    ((rows * 49 + 4) / 8).min(width)
 }
 
 /// Columns and rows of a map where there are so many columns.
@@ -276,8 +283,11 @@ fn paint(
     area: Size,
 ) -> Result<Drawn, String> {
     let image = RgbaImage::from_raw(columns, rows, rgba).ok_or("the picture has the wrong size")?;
-    if !colours && picker.protocol_type() == ProtocolType::Halfblocks {
-        return Ok(Drawn::Shades(shades(&image, area.width, area.height)));
+    if picker.protocol_type() == ProtocolType::Halfblocks {
+        return match colours {
+            true => half_blocks(&image, area),
+            false => Ok(Drawn::Shades(shades(&image, area.width, area.height))),
+        };
     }
     SlicedProtocol::new_with_resize(
         picker,
@@ -287,6 +297,23 @@ fn paint(
     )
     .map(Drawn::Pixels)
     .map_err(|error| error.to_string())
+}
+
+/// A picture of two pixels a cell, each the mean of what it covers; no cell is filled in part.
+fn half_blocks(image: &RgbaImage, area: Size) -> Result<Drawn, String> {
+    let (width, height) = (f64::from(image.width()), f64::from(image.height()));
+    let (columns, rows) = (f64::from(area.width), f64::from(area.height));
+    let scale = (columns / width).min(2.0 * rows / height);
+    let cells = |pixels: f64, most: u16| (pixels.round() as u16).clamp(1, most.max(1));
+    let size = Size::new(
+        cells(scale * width, area.width),
+        cells(scale * height / 2.0, area.height),
+    );
+    let (columns, rows) = (u32::from(size.width), u32::from(size.height));
+    let small = image::imageops::thumbnail(image, columns, 2 * rows);
+    Halfblocks::new(DynamicImage::ImageRgba8(small), size)
+        .map(|blocks| Drawn::Pixels(SlicedProtocol::Halfblocks(blocks)))
+        .map_err(|error| error.to_string())
 }
 
 /// The picture on a transparent ground of that size, where it nearly fills it: to be scaled costs

@@ -11,14 +11,14 @@ use tutor::map::MapFrame;
 use super::style::Palette;
 use crate::fingerprints::{Kind, Subject};
 use crate::maps::legend;
-use crate::tui::pictures::{Pictures, State};
+use crate::tui::pictures::{Pictures, State, columns_in, rows_for};
 
 /// Rows around a picture: its title, the names of its panels, what the colours say.
 pub const AROUND: u16 = 3;
 
 /// Rows for a picture of that width and what stands around it.
 pub fn height(width: u16) -> u16 {
-    crate::tui::pictures::rows_for(width) + AROUND
+    rows_for(width) + AROUND
 }
 
 /// What the colours of the third panel say.
@@ -42,7 +42,7 @@ impl<'a> Words<'a> {
         let is_own = matches!(subject.kind, Kind::Own(_));
         Self {
             title,
-            names: names(usize::from(width), is_own),
+            names: names(usize::from(columns_in(rows_for(width), width)), is_own),
             keys: [COLOURS, SIGNS].map(str::to_owned),
         }
     }

@@ -11,7 +11,7 @@ use super::style::Palette;
 use crate::fingerprints::figures;
 use crate::text;
 use crate::tui::dials::Quantity;
-use crate::tui::pictures::{Drawn, rows_for};
+use crate::tui::pictures::{Drawn, columns_in, rows_for};
 use crate::tui::play::Play;
 
 /// Rows around the panels: title, rule, names, colours, a free one, values, figures, footer.
@@ -28,17 +28,14 @@ impl Areas {
         let room = whole.height.saturating_sub(AROUND).max(2);
         let width = whole.width.saturating_sub(2).min(columns);
         // As wide as the height allows: three squares side by side.
-        let width = if rows_for(width) > room {
-            (room * 6).min(width)
-        } else {
-            width
-        };
+        // As high as the width allows, and as wide as the height does: three squares in a row.
+        let height = rows_for(width).min(room);
         Self {
             panels: Rect {
                 x: whole.x + 1,
                 y: whole.y + 2,
-                width,
-                height: rows_for(width).min(room),
+                width: columns_in(height, width),
+                height,
             },
         }
     }
