@@ -52,6 +52,13 @@ fn main() {
         keys(&lobe, 200, 60, 150),
         "16 at p99",
     );
+    for kind in ["halfblocks", "kitty", "iterm2", "sixel"] {
+        row(
+            &format!("key press to frame, picture, {kind}"),
+            turns(&lobe, kind, 60),
+            "33 at p99",
+        );
+    }
     row(
         "check, all lessons",
         repeat(15, || whole(&lobe, &["check"])),
@@ -170,12 +177,23 @@ struct Screen {
 
 impl Screen {
     fn start(lobe: &Path, columns: u16, rows: u16, arguments: &[&str]) -> Self {
+        Self::start_with(lobe, columns, rows, arguments, "halfblocks")
+    }
+
+    /// On a terminal of cells of 8 by 16 pixels that shows pictures of some kind.
+    fn start_with(
+        lobe: &Path,
+        columns: u16,
+        rows: u16,
+        arguments: &[&str],
+        pictures: &str,
+    ) -> Self {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let size = PtySize {
             rows,
             cols: columns,
-            pixel_width: 0,
-            pixel_height: 0,
+            pixel_width: 8 * columns,
+            pixel_height: 16 * rows,
         };
         let pty = native_pty_system()
             .openpty(size)
@@ -184,6 +202,7 @@ impl Screen {
         command.args(arguments);
         command.env("TERM", "xterm-256color");
         command.env("LOBE_PROGRESS", folder.path());
+        command.env("LOBE_PICTURES", pictures);
         command.cwd(env!("CARGO_MANIFEST_DIR"));
         let child = pty
             .slave
@@ -270,6 +289,22 @@ fn keys(lobe: &Path, columns: u16, rows: u16, presses: usize) -> Vec<f64> {
         let start = Instant::now();
         screen.press(pattern[i % pattern.len()]);
         if let Some((when, _)) = screen.settle(Duration::from_millis(300)) {
+            times.push((when - start).as_secs_f64() * 1e3);
+        }
+    }
+    times
+}
+
+/// Turns a picture of three panels of 256² pixels, where the terminal has so many.
+fn turns(lobe: &Path, kind: &str, presses: usize) -> Vec<f64> {
+    let mut screen = Screen::start_with(lobe, 120, 40, &["play", "smith-g2"], kind);
+    screen.settle(Duration::from_secs(10));
+    let mut times = Vec::new();
+    for i in 0..presses {
+        let start = Instant::now();
+        // Roughness up and down again.
+        screen.press(if i % 20 < 10 { "\x1b[D" } else { "\x1b[C" });
+        if let Some((when, _)) = screen.settle(Duration::from_millis(1000)) {
             times.push((when - start).as_secs_f64() * 1e3);
         }
     }
