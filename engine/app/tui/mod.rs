@@ -39,6 +39,7 @@ use self::picker::{Chosen, Picker};
 use self::pictures::Pictures;
 use self::play::{Left, Play};
 use crate::config::SecondJudge;
+use crate::due::{Due, Lineup};
 use crate::exit::{Done, Failure, plain_reason};
 use crate::lessons::Shelf;
 use crate::sitting::{Sitting, Wish};
@@ -66,12 +67,18 @@ struct App<'a> {
     palette: Palette,
     /// Whether leaving a lesson leads to the list.
     from_list: bool,
+    /// What comes when a lesson is at its end.
+    lineup: Option<Lineup>,
+    /// How the lesson was opened.
+    wish: Wish,
 }
 
 /// What to open.
 pub enum Open<'a> {
     List,
     Lesson(&'a Arc<Lesson>, Wish),
+    /// What is due, alone.
+    Due(Due),
 }
 
 /// Runs the tutor until the learner leaves.
@@ -82,28 +89,27 @@ pub fn run(
     open: Open,
 ) -> Result<Done, Failure> {
     let palette = Palette::from_env();
-    let (screen, from_list) = match open {
-        Open::List => (Screen::Picker(Picker::new(shelf, store)), true),
-        Open::Lesson(lesson, wish) => {
-            let sitting = Sitting::open(lesson, store, wish)?;
-            let sitting = sitting.with_second_opinions(judge.clone());
-            (
-                Screen::Lesson(Box::new(LessonScreen::new(sitting, palette))),
-                false,
-            )
-        }
-    };
     let mut app = App {
         shelf,
         store,
         judge,
-        screen,
+        screen: Screen::Picker(Picker::empty()),
         help: None,
         pictures: Pictures::new(palette.has_colours()),
         keyboard: Keyboard::default(),
         palette,
-        from_list,
+        from_list: matches!(open, Open::List),
+        lineup: None,
+        wish: Wish::default(),
     };
+    match open {
+        Open::List => app.screen = Screen::Picker(Picker::new(shelf, store)),
+        Open::Lesson(lesson, wish) => app.open(lesson, wish)?,
+        Open::Due(due) => {
+            app.lineup = Some(Lineup::new(due, None));
+            app.go_on()?;
+        }
+    }
     let result = app.run_in_terminal();
     let parting = app.part();
     result?;
@@ -154,7 +160,9 @@ impl App<'_> {
                             }
                             repaint = true;
                         }
-                        Flow::Leave => return Ok(()),
+                        Flow::Leave | Flow::Finish => return Ok(()),
+                        // Done already.
+                        Flow::AskDue => repaint = true,
                         Flow::OpenEditor => {
                             self.open_editor(&guard).map_err(broken)?;
                             repaint = true;
@@ -241,29 +249,82 @@ impl App<'_> {
                 Chosen::Nothing => Ok(Flow::Stay),
                 Chosen::Leave => Ok(Flow::Leave),
                 Chosen::Lesson { lesson } => {
-                    let sitting = Sitting::open(&lesson, self.store, Wish::default())?;
-                    let sitting = sitting.with_second_opinions(self.judge.clone());
-                    self.screen =
-                        Screen::Lesson(Box::new(LessonScreen::new(sitting, self.palette)));
+                    self.open(&lesson, Wish::default())?;
+                    Ok(Flow::Stay)
+                }
+                Chosen::Due { lesson } => {
+                    if let Some(due) = Due::within(self.shelf, self.store, &lesson) {
+                        self.lineup = Some(Lineup::new(due, None));
+                        self.go_on()?;
+                    }
                     Ok(Flow::Stay)
                 }
             },
-            Screen::Lesson(lesson) => {
-                let flow = lesson.act(action);
-                if flow != Flow::Leave {
-                    return Ok(flow);
+            Screen::Lesson(lesson) => match lesson.act(action) {
+                Flow::AskDue => {
+                    let then = Some((Arc::clone(lesson.sitting.lesson()), self.wish));
+                    if let Some(due) = lesson.offer.take() {
+                        self.lineup = Some(Lineup::new(due, then));
+                        self.go_on()?;
+                    }
+                    Ok(Flow::Stay)
                 }
-                if !self.from_list {
-                    return Ok(Flow::Leave);
+                Flow::Finish if self.go_on()? => Ok(Flow::Stay),
+                flow @ (Flow::Leave | Flow::Finish) if self.from_list => {
+                    self.back_to_list(flow);
+                    Ok(Flow::Stay)
                 }
-                lesson.sitting.settle();
-                let said = "Saved. You come back to this very screen.".to_owned();
-                let mut picker = Picker::new(self.shelf, self.store);
-                picker.said = Some(said);
-                self.screen = Screen::Picker(picker);
-                Ok(Flow::Stay)
-            }
+                flow => Ok(flow),
+            },
         }
+    }
+
+    /// Opens a lesson, and offers what is due in others.
+    fn open(&mut self, lesson: &Arc<Lesson>, wish: Wish) -> Result<(), Failure> {
+        let sitting = Sitting::open(lesson, self.store, wish)?;
+        let due = Due::elsewhere(self.shelf, self.store, lesson);
+        self.wish = wish;
+        self.show(sitting, due);
+        Ok(())
+    }
+
+    /// Opens what comes next. False where nothing does.
+    fn go_on(&mut self) -> Result<bool, Failure> {
+        if let Screen::Lesson(lesson) = &mut self.screen {
+            lesson.sitting.settle();
+        }
+        let next = match &mut self.lineup {
+            Some(lineup) => lineup.next(self.store)?,
+            None => None,
+        };
+        let goes_on = next.is_some();
+        match next {
+            Some(sitting) => self.show(sitting, None),
+            None => self.lineup = None,
+        }
+        Ok(goes_on)
+    }
+
+    fn show(&mut self, sitting: Sitting, offer: Option<Due>) {
+        let sitting = sitting.with_second_opinions(self.judge.clone());
+        let screen = LessonScreen::new(sitting, offer, self.palette);
+        self.screen = Screen::Lesson(Box::new(screen));
+    }
+
+    fn back_to_list(&mut self, flow: Flow) {
+        let Screen::Lesson(lesson) = &mut self.screen else {
+            return;
+        };
+        lesson.sitting.settle();
+        let said = match (lesson.sitting.asks_due(), flow) {
+            (false, _) => "Saved. You come back to this very screen.",
+            (true, Flow::Finish) => "Saved.",
+            (true, _) => "Saved. What is left stays due.",
+        };
+        self.lineup = None;
+        let mut picker = Picker::new(self.shelf, self.store);
+        picker.said = Some(said.to_owned());
+        self.screen = Screen::Picker(picker);
     }
 
     /// Opens the picture in view over the whole screen.
@@ -357,10 +418,12 @@ impl App<'_> {
         lesson.save_draft();
         let id = lesson.sitting.lesson().id.text.clone();
         let over = lesson.view().stage == Stage::Result;
+        let asks_due = lesson.sitting.asks_due();
         match lesson.sitting.close() {
             Ok(()) => {
                 // The terminal may be gone: then there is nobody to tell.
                 let _ = crate::output::line(&match over {
+                    _ if asks_due => "Saved. What is left stays due.".to_owned(),
                     true => "Saved. `lobe list` says when it is due again.".to_owned(),
                     false => format!("Saved. `lobe learn {id}` goes on where you left."),
                 });

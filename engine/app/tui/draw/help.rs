@@ -7,7 +7,7 @@ use ratatui::widgets::{Block, Clear};
 
 use super::style::Palette;
 
-const KEYS: [(&str, &str); 19] = [
+const KEYS: [(&str, &str); 20] = [
     ("Enter, →, l", "go on; Enter also answers"),
     ("←, h", "back one screen; nothing is lost"),
     ("↑ ↓, k j", "scroll, or choose"),
@@ -17,6 +17,7 @@ const KEYS: [(&str, &str); 19] = [
     ("Esc", "leave a field, so that single keys are commands"),
     ("t, Ctrl-T", "a hint; the third one is the answer"),
     ("s, Ctrl-G", "skip this"),
+    ("r", "re-test: first what is due again"),
     ("i", "the picture in view under the arrow keys"),
     ("Ctrl-S", "hand in an explanation; run a shader"),
     ("Ctrl-O", "a shader in your own editor ($EDITOR)"),

@@ -101,6 +101,9 @@ fn on_page(screen: &LessonScreen, width: u16) -> Vec<Key> {
     if answers && view.can.next {
         keys.push(key("Esc, Enter", next(view)));
     }
+    if screen.offer.is_some() {
+        keys.push(key("r", "first what is due"));
+    }
     if screen.picture_in_view().is_some() {
         keys.push(key("i", "turn the picture"));
     }

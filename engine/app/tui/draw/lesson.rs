@@ -12,6 +12,7 @@ use super::input;
 use super::keys::keys;
 use super::style::Palette;
 use crate::text;
+use crate::tui::keys::Focus;
 use crate::tui::lesson::LessonScreen;
 use crate::tui::pictures::Pictures;
 
@@ -244,6 +245,13 @@ fn notes(screen: &LessonScreen, width: usize) -> Vec<(Tone, String)> {
     };
     for line in &screen.greeting {
         say(Tone::Info, line);
+    }
+    if let Some(offer) = &screen.offer {
+        let keys = match screen.focus {
+            Focus::Line | Focus::Editor => "Esc, then r",
+            _ => "r",
+        };
+        say(Tone::Info, &offer.words(keys));
     }
     if let Some(note) = screen
         .view()

@@ -8,6 +8,7 @@ use tutor::session::progress::LessonState;
 
 use super::chrome::{footer, key, rule};
 use super::style::Palette;
+use crate::due::still_asked;
 use crate::text;
 use crate::tui::picker::{Entry, Picker};
 
@@ -85,12 +86,15 @@ pub fn draw(frame: &mut Frame, picker: &Picker, palette: Palette) {
         Some(LessonState::New) | None => "begin",
         Some(_) => "take it again",
     };
-    let keys = [
-        key("↑↓", "choose"),
-        key("Enter", open),
-        key("?", "help"),
-        key("q", "quit"),
-    ];
+    let due = picker
+        .entries
+        .get(picker.at)
+        .map_or(0, |entry| still_asked(entry).len());
+    let mut keys = vec![key("↑↓", "choose"), key("Enter", open)];
+    if due > 0 {
+        keys.push(key("r", "re-test what is due"));
+    }
+    keys.extend([key("?", "help"), key("q", "quit")]);
     footer(
         frame,
         row(whole.bottom().saturating_sub(1)),
