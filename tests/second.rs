@@ -246,6 +246,34 @@ fn plain_text_waits_where_it_matters_and_the_log_keeps_both() {
 }
 
 #[test]
+fn a_reply_gets_a_second_opinion_too() {
+    let field = r#"{"id":"area","verdict":"yes","quote":"out over a field"}"#;
+    let script = format!(
+        "if grep -q '\"dialogue\":'; then\n{}\nelse\n{}\nfi",
+        print(&[field]),
+        print(&[ITSELF])
+    );
+    let home = Home::asking(&script, 60.0);
+    home.skip_to_question();
+    let text = home.plain(&[DOUBT, ".", "It spreads out over a field"]);
+    let asked = text.find("! One question.").expect("a question");
+    let came = text.find("! A second opinion.").expect("an opinion");
+    assert!(
+        asked < came && text.contains("✓ Now it is all there."),
+        "{text}"
+    );
+    let waits = text.matches("Asking for a second opinion …").count();
+    assert_eq!(waits, 2, "{text}");
+    let log = home.log();
+    for part in ["kind = \"replied\"", "reply = 1", "settled = [\"area\"]"] {
+        assert!(log.contains(part), "no {part} in\n{log}");
+    }
+    // It is there again.
+    let again = home.plain(&[]);
+    assert!(again.contains("✓ Now it is all there."), "{again}");
+}
+
+#[test]
 fn on_the_screen_nobody_has_to_wait_and_nothing_is_left_running() {
     let home = Home::asking("echo $$ > \"$HOME/asked\"; sleep 1000", 600.0);
     home.skip_to_question();

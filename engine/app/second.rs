@@ -33,7 +33,17 @@ struct Request<'a> {
     format: u32,
     item: &'a str,
     rubric: Shown<'a>,
+    /// With the replies, each on a line of its own.
     answer: &'a str,
+    /// What was asked back, and what was replied.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    dialogue: Vec<Exchange<'a>>,
+}
+
+#[derive(Serialize)]
+struct Exchange<'a> {
+    asked: &'a str,
+    reply: &'a str,
 }
 
 #[derive(Serialize)]
@@ -57,7 +67,7 @@ struct Mistaken<'a> {
     blocking: bool,
 }
 
-fn request(rubric: &Rubric, answer: &str) -> String {
+fn request(rubric: &Rubric, answer: &str, dialogue: &[(String, String)]) -> String {
     let expectation = rubric.expectation.iter().map(|it| Expected {
         id: &it.id,
         says: &it.says,
@@ -77,6 +87,10 @@ fn request(rubric: &Rubric, answer: &str) -> String {
             misconception: misconception.collect(),
         },
         answer,
+        dialogue: dialogue
+            .iter()
+            .map(|(asked, reply)| Exchange { asked, reply })
+            .collect(),
     };
     // Strings and booleans: it has no way to fail.
     serde_json::to_string(&request).unwrap_or_default() + "\n"
@@ -91,8 +105,13 @@ pub struct Asking {
 
 impl Asking {
     /// Asks in the background.
-    pub fn start(judge: &SecondJudge, rubric: &Rubric, answer: &str) -> Asking {
-        let (judge, request) = (judge.clone(), request(rubric, answer));
+    pub fn start(
+        judge: &SecondJudge,
+        rubric: &Rubric,
+        answer: &str,
+        dialogue: &[(String, String)],
+    ) -> Asking {
+        let (judge, request) = (judge.clone(), request(rubric, answer, dialogue));
         let cancelled = Arc::new(AtomicBool::new(false));
         let (send, result) = mpsc::channel();
         let flag = Arc::clone(&cancelled);
@@ -275,7 +294,7 @@ mod tests {
     fn check(script: &str, expected: Result<&[&str], &str>) {
         // Half a second is for those that would never end; a slow machine changes no outcome.
         let patience = if script.contains("sleep") { 0.5 } else { 60.0 };
-        let said = Asking::start(&judge(script, patience), &rubric(), "Because.").wait();
+        let said = Asking::start(&judge(script, patience), &rubric(), "Because.", &[]).wait();
         match (&said, expected) {
             (Ok(findings), Ok(ids)) => {
                 let found: Vec<&str> = findings.iter().map(|it| it.id.as_str()).collect();
@@ -322,7 +341,7 @@ mod tests {
     fn a_program_that_is_not_there_is_named() {
         let mut judge = judge("", 1.0);
         judge.command = vec!["/nonexistent/judge".to_owned()];
-        let said = Asking::start(&judge, &rubric(), "").wait();
+        let said = Asking::start(&judge, &rubric(), "", &[]).wait();
         assert!(said.is_err_and(|why| why.starts_with("/nonexistent/judge cannot be run")));
     }
 
@@ -331,7 +350,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let file = folder.path().join("child");
         let script = format!("sleep 1000 & echo $! > {}; wait", file.display());
-        let asking = Asking::start(&judge(&script, 600.0), &rubric(), "");
+        let asking = Asking::start(&judge(&script, 600.0), &rubric(), "", &[]);
         let child = loop {
             match std::fs::read_to_string(&file) {
                 Ok(text) if text.ends_with('\n') => break text.trim().to_owned(),
@@ -351,7 +370,7 @@ mod tests {
 
     #[test]
     fn the_request_is_one_line_with_the_answer_as_data() {
-        let line = request(&rubric(), "one\n\"two\"}");
+        let line = request(&rubric(), "one\n\"two\"}", &[]);
         assert_eq!(line.matches('\n').count(), 1);
         let value: serde_json::Value = serde_json::from_str(&line).expect("JSON");
         assert_eq!(value["answer"], "one\n\"two\"}");

@@ -58,6 +58,7 @@ pub struct Sitting {
 struct Asked {
     item: String,
     attempt: u32,
+    reply: u32,
     asking: Asking,
 }
 
@@ -172,40 +173,32 @@ impl Sitting {
         self
     }
 
-    fn consult(&mut self, item: String, attempt: u32, text: &str) {
-        if let (Some(judge), Some(explain)) = (&self.judge, self.session.lesson().explain(&item)) {
-            let asking = Asking::start(judge, &explain.rubric, text);
-            self.asked.push(Asked {
-                item,
-                attempt,
-                asking,
-            });
-        }
-    }
-
     /// Passes on the opinions that have come. True where there was one.
     fn collect_opinions(&mut self) -> bool {
         let mut came = Vec::new();
-        self.asked.retain(|asked| match asked.asking.answer() {
-            Some(said) => {
-                came.push((asked.item.clone(), asked.attempt, said));
-                false
+        for (at, asked) in self.asked.iter().enumerate().rev() {
+            if let Some(said) = asked.asking.answer() {
+                came.push((at, said));
             }
-            None => true,
-        });
+        }
+        let came: Vec<(Asked, Said)> = came
+            .into_iter()
+            .map(|(at, said)| (self.asked.remove(at), said))
+            .collect();
         let any = !came.is_empty();
-        for (item, attempt, said) in came {
-            self.pass_on_opinion(item, attempt, said);
+        for (asked, said) in came.into_iter().rev() {
+            self.pass_on_opinion(asked, said);
         }
         any
     }
 
-    fn pass_on_opinion(&mut self, item: String, attempt: u32, said: Said) {
+    fn pass_on_opinion(&mut self, asked: Asked, said: Said) {
         let by = self.judge.as_ref().map(SecondJudge::name);
         // It asks for nothing but to be saved.
         let _ = self.tell(Msg::SecondOpinion {
-            item,
-            attempt,
+            item: asked.item,
+            attempt: asked.attempt,
+            reply: asked.reply,
             by: by.unwrap_or_default(),
             said,
         });
@@ -215,7 +208,7 @@ impl Sitting {
     pub fn settle_opinions(&mut self) {
         for asked in std::mem::take(&mut self.asked) {
             let said = asked.asking.wait();
-            self.pass_on_opinion(asked.item, asked.attempt, said);
+            self.pass_on_opinion(asked, said);
         }
     }
 
@@ -261,9 +254,20 @@ impl Sitting {
             Effect::Consult {
                 item,
                 attempt,
+                reply,
                 text,
+                dialogue,
             } => {
-                self.consult(item, attempt, &text);
+                let explain = self.session.lesson().explain(&item);
+                if let (Some(judge), Some(explain)) = (&self.judge, explain) {
+                    let asking = Asking::start(judge, &explain.rubric, &text, &dialogue);
+                    self.asked.push(Asked {
+                        item,
+                        attempt,
+                        reply,
+                        asking,
+                    });
+                }
                 None
             }
             Effect::StopConsulting => {
@@ -359,7 +363,7 @@ impl Sitting {
     pub fn close(mut self) -> Result<(), String> {
         for asked in std::mem::take(&mut self.asked) {
             let said = Err("the learner left before it came".to_owned());
-            self.pass_on_opinion(asked.item, asked.attempt, said);
+            self.pass_on_opinion(asked, said);
         }
         self.writer.close()
     }

@@ -133,7 +133,7 @@ fn judged(
     let rubric = &explain.rubric;
     let said = match opinion::speaks_to_the_judge(rubric, text) {
         true => Err("the answer speaks to the judge".to_owned()),
-        false => Asking::start(judge, rubric, text).wait(),
+        false => Asking::start(judge, rubric, text, &[]).wait(),
     };
     let checked = said.and_then(|findings| opinion::verify(rubric, text, &findings));
     let by = judge.name();

@@ -143,13 +143,20 @@ pub fn explanations(record: &Record) -> Vec<Explanation> {
             Event::SecondOpinion {
                 item,
                 attempt,
+                reply,
                 disputed,
                 verdict,
                 ..
             } => {
                 if let Some(&place) = at.get(&(item.clone(), *attempt)) {
-                    out[place].disputed = disputed.clone();
-                    out[place].stands = verdict.clone();
+                    let out = &mut out[place];
+                    let new = disputed.iter().filter(|id| !out.disputed.contains(id));
+                    let new: Vec<String> = new.cloned().collect();
+                    out.disputed.extend(new);
+                    // What was said since is judged by itself.
+                    if *reply as usize == out.replies.len() {
+                        out.stands = verdict.clone();
+                    }
                 }
             }
             _ => {}
@@ -292,6 +299,7 @@ mod tests {
         Event::SecondOpinion {
             item: item.into(),
             attempt: 1,
+            reply: 0,
             by: "a colleague".into(),
             result: "disputes".into(),
             problem: None,

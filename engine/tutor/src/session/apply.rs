@@ -1,6 +1,7 @@
 //! Events become state. Total: an event that does not fit is passed over and remembered as such.
 
 use super::Session;
+use super::consult::Consulted;
 use super::dialogue::{self, Asked, Reply, Turn};
 use super::event::{Event, Quote};
 use super::problem::{self, Problem, mix};
@@ -276,6 +277,7 @@ impl Session {
             attempt,
             about,
             rung,
+            asked,
             text,
             why,
             ..
@@ -283,7 +285,7 @@ impl Session {
         else {
             return;
         };
-        let Some(heard) = Heard::of(event) else {
+        let Some(first) = Heard::of(event) else {
             return;
         };
         let question = Asked {
@@ -294,17 +296,20 @@ impl Session {
         let reply = Reply {
             about: about.clone(),
             rung: *rung,
+            asked: asked.clone(),
             text: text.clone(),
             why: why.clone(),
-            heard,
+            first,
+            second: None,
         };
-        self.take_turn(item, *attempt, fits, Turn::Replied(reply));
+        self.take_turn(item, *attempt, fits, Turn::Replied(Box::new(reply)));
     }
 
     fn second_opinion(&mut self, event: &Event) {
         let Event::SecondOpinion {
             item,
             attempt,
+            reply,
             settled,
             why,
             result,
@@ -317,16 +322,26 @@ impl Session {
         let Some(heard) = Heard::of(event) else {
             return;
         };
-        if self.waiting.as_ref() == Some(&(item.clone(), *attempt)) {
+        let about = Consulted {
+            item: item.clone(),
+            attempt: *attempt,
+            reply: *reply,
+        };
+        if self.waiting.as_ref() == Some(&about) {
             self.waiting = None;
         }
         let Some(tried) = self.tried(item, *attempt) else {
             return;
         };
+        let is_settled = tried.own.is_some() || !tried.marks.is_empty();
+        let Some((second, since)) = tried.second_of(*reply) else {
+            self.diverged = true;
+            return;
+        };
         // What was asked or marked meanwhile is not undone by an opinion that comes late.
-        let in_time = tried.turns.is_empty() && tried.own.is_none() && tried.marks.is_empty();
+        let in_time = since == 0 && !is_settled;
         let decided = |why: &&Quote| settled.contains(&why.id);
-        tried.second = Some(Second {
+        *second = Some(Second {
             settled: (in_time && !settled.is_empty()).then_some(heard),
             why: why.iter().filter(decided).cloned().collect(),
             problem: problem.clone().filter(|_| in_time && result == "unusable"),

@@ -2,6 +2,7 @@
 
 use super::Session;
 use super::decide::Decided;
+use super::dialogue::Reply;
 use super::event::{Effect, Event, Quote};
 use super::question::{Heard, Try};
 use crate::judge::Verdict;
@@ -15,80 +16,156 @@ pub(super) fn is_in_doubt(rubric: &Rubric, unsure: &[String]) -> bool {
     deciding.any(|it| unsure.iter().any(|id| id == it.id))
 }
 
+/// What an opinion is about.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Consulted {
+    pub(super) item: String,
+    pub(super) attempt: u32,
+    /// The reply, from 1; 0 for the answer itself.
+    pub(super) reply: u32,
+}
+
 impl Session {
     /// An explanation is judged: where second opinions are wanted, one is asked for.
     pub(super) fn consulting(&self, explain: &Explain, explained: Event) -> Decided {
-        let (item, attempt, text, unsure) = match &explained {
-            Event::Explained {
-                item,
-                attempt,
-                text,
-                unsure,
-                ..
-            } if self.consults => (item.clone(), *attempt, text.clone(), unsure.clone()),
-            _ => return Decided::event(explained),
+        let Event::Explained { text, unsure, .. } = &explained else {
+            return Decided::event(explained);
         };
-        let mut decided = Decided::event(explained);
-        if opinion::speaks_to_the_judge(&explain.rubric, &text) {
-            decided.asks_nobody = Some((item, attempt));
+        let (text, unsure) = (text.clone(), unsure.clone());
+        self.asking(explain, explained, 0, &unsure, text, Vec::new())
+    }
+
+    /// The same of a reply, with all that was said before it.
+    pub(super) fn consulting_reply(
+        &self,
+        explain: &Explain,
+        tried: &Try,
+        replied: Event,
+    ) -> Decided {
+        let Event::Replied {
+            asked,
+            text,
+            unsure,
+            ..
+        } = &replied
+        else {
+            return Decided::event(replied);
+        };
+        let before = tried
+            .replies()
+            .map(|it| (it.asked.clone(), it.text.clone()));
+        let mut dialogue: Vec<(String, String)> = before.collect();
+        dialogue.push((asked.clone(), text.clone()));
+        let whole = whole(
+            &tried.text,
+            dialogue.iter().map(|(_, reply)| reply.as_str()),
+        );
+        let (reply, unsure) = (dialogue.len() as u32, unsure.clone());
+        self.asking(explain, replied, reply, &unsure, whole, dialogue)
+    }
+
+    fn asking(
+        &self,
+        explain: &Explain,
+        event: Event,
+        reply: u32,
+        unsure: &[String],
+        text: String,
+        dialogue: Vec<(String, String)>,
+    ) -> Decided {
+        let mut decided = Decided::event(event);
+        let (Event::Explained { attempt, .. } | Event::Replied { attempt, .. }) =
+            &decided.events[0]
+        else {
+            return decided;
+        };
+        if !self.consults {
             return decided;
         }
-        if is_in_doubt(&explain.rubric, &unsure) {
-            decided.waits = Some((item.clone(), attempt));
+        let about = Consulted {
+            item: explain.rubric.item.clone(),
+            attempt: *attempt,
+            reply,
+        };
+        if opinion::speaks_to_the_judge(&explain.rubric, &text) {
+            decided.asks_nobody = Some(about);
+            return decided;
         }
         decided.effects.push(Effect::Consult {
-            item,
-            attempt,
+            item: about.item.clone(),
+            attempt: about.attempt,
+            reply,
             text,
+            dialogue,
         });
+        if is_in_doubt(&explain.rubric, unsure) {
+            decided.waits = Some(about);
+        }
         decided
     }
 
-    /// Whether the learner waits for a second opinion on a try.
+    /// Whether the learner waits for a second opinion on a try, or on a reply about it.
     pub(super) fn is_waiting(&self, item: &str, attempt: u32) -> bool {
         let waiting = self.waiting.as_ref();
-        waiting.is_some_and(|(it, at)| it == item && *at == attempt)
+        waiting.is_some_and(|it| it.item == item && it.attempt == attempt)
     }
 
     /// The learner goes on without it.
     pub(super) fn stop_waiting(&self) -> Decided {
-        let Some((item, attempt)) = self.waiting.clone() else {
+        let Some(about) = self.waiting.clone() else {
             return Decided::default();
         };
         let problem = Err("the learner went on without it".to_owned());
-        let mut decided = self.second_opinion_came(&item, attempt, String::new(), problem);
+        let mut decided = self.second_opinion_came(&about, String::new(), problem);
         decided.effects.push(Effect::StopConsulting);
         decided
     }
 
-    /// What came back becomes an event; once for each try.
+    /// What came back becomes an event; once for each answer and reply.
     pub(super) fn second_opinion_came(
         &self,
-        item: &str,
-        attempt: u32,
+        about: &Consulted,
         by: String,
         said: Result<Vec<Finding>, String>,
     ) -> Decided {
-        let index = (attempt as usize).checked_sub(1);
-        let tried = index.and_then(|index| self.questions.get(item)?.tries.get(index));
-        match (self.lesson.explain(item), tried) {
-            (Some(explain), Some(tried)) if tried.second.is_none() => {
-                Decided::event(event(&explain.rubric, tried, attempt, by, said))
-            }
-            _ => Decided::default(),
+        let index = (about.attempt as usize).checked_sub(1);
+        let question = self.questions.get(&about.item);
+        let tried = index.and_then(|index| question?.tries.get(index));
+        let (Some(explain), Some(tried)) = (self.lesson.explain(&about.item), tried) else {
+            return Decided::default();
+        };
+        let replies: Vec<&Reply> = tried.replies().take(about.reply as usize).collect();
+        let (first, second) = match replies.last() {
+            Some(last) => (&last.first, &last.second),
+            None => (&tried.first, &tried.second),
+        };
+        if second.is_some() || replies.len() != about.reply as usize {
+            return Decided::default();
         }
+        let text = whole(&tried.text, replies.iter().map(|reply| reply.text.as_str()));
+        Decided::event(event(&explain.rubric, about, first, &text, by, said))
     }
+}
+
+/// Answer and replies as one text, each of them on a line of its own.
+fn whole<'a>(answer: &str, replies: impl Iterator<Item = &'a str>) -> String {
+    let mut whole = answer.to_owned();
+    for reply in replies {
+        whole.push('\n');
+        whole.push_str(reply);
+    }
+    whole
 }
 
 fn event(
     rubric: &Rubric,
-    tried: &Try,
-    attempt: u32,
+    about: &Consulted,
+    first: &Heard,
+    text: &str,
     by: String,
     said: Result<Vec<Finding>, String>,
 ) -> Event {
-    let first = &tried.first;
-    let checked = said.and_then(|findings| opinion::verify(rubric, &tried.text, &findings));
+    let checked = said.and_then(|findings| opinion::verify(rubric, text, &findings));
     let (result, problem, combined, checked) = match checked {
         Ok(checked) => {
             let combined = opinion::combine(
@@ -120,8 +197,9 @@ fn event(
         None => Default::default(),
     };
     Event::SecondOpinion {
-        item: rubric.item.clone(),
-        attempt,
+        item: about.item.clone(),
+        attempt: about.attempt,
+        reply: about.reply,
         by,
         result: result.to_owned(),
         problem,

@@ -1,18 +1,18 @@
 //! Messages become events: here answers are marked and explanations judged, once.
 
 use super::Session;
+use super::consult::Consulted;
 use super::dialogue::Asked;
 use super::event::{Effect, Event, Msg, Quote};
 use super::pointing::Pointing;
 use super::problem::{Problem, WHOLE};
 use super::question::{Heard, Question, Try};
+use super::reply;
 use super::run::Running;
 use super::screen::Screen;
-use super::{reply, show_dialogue};
 use crate::exercise::{self, Draw, Marking};
 use crate::judge::{JUDGE_VERSION, Judgement};
 use crate::lesson::{Exercise, Explain, Lesson, Task};
-use crate::prose::plain;
 use crate::view::Saving;
 
 /// What a message leads to.
@@ -24,9 +24,9 @@ pub(super) struct Decided {
     pub(super) saving: Option<Saving>,
     pub(super) effects: Vec<Effect>,
     /// The try whose second opinion is waited for from here on.
-    pub(super) waits: Option<(String, u32)>,
+    pub(super) waits: Option<Consulted>,
     /// The try on which nobody is asked for a second opinion, for it tells judges what to do.
-    pub(super) asks_nobody: Option<(String, u32)>,
+    pub(super) asks_nobody: Option<Consulted>,
     /// A shader that runs from here on.
     pub(super) running: Option<Running>,
     /// A place that is looked at from here on.
@@ -83,9 +83,18 @@ impl Session {
             Msg::SecondOpinion {
                 item,
                 attempt,
+                reply,
                 by,
                 said,
-            } => self.second_opinion_came(&item, attempt, by, said),
+            } => self.second_opinion_came(
+                &Consulted {
+                    item,
+                    attempt,
+                    reply,
+                },
+                by,
+                said,
+            ),
             Msg::Ran(ran) => self.ran(&ran),
             Msg::Looked(sight) => self.looked(&sight),
             Msg::AskDue(items) => self.ask_due(items),
@@ -107,9 +116,9 @@ impl Session {
         for event in &decided.events {
             self.apply(event);
         }
-        if let Some((item, attempt)) = decided.asks_nobody.take() {
+        if let Some(about) = decided.asks_nobody.take() {
             let problem = Err("the answer speaks to the judge".to_owned());
-            let noted = self.second_opinion_came(&item, attempt, String::new(), problem);
+            let noted = self.second_opinion_came(&about, String::new(), problem);
             noted.events.iter().for_each(|event| self.apply(event));
             decided.events.extend(noted.events);
         }
@@ -373,7 +382,8 @@ impl Session {
                 self.consulting(explain, event)
             }
             (Open::Reply(explain, tried, asked), Screen::Explain { attempt, .. }) if !empty => {
-                Decided::event(replied(&self.lesson, explain, *attempt, tried, asked, text))
+                let event = replied(&self.lesson, explain, *attempt, tried, asked, text);
+                self.consulting_reply(explain, tried, event)
             }
             (Open::Reply(..) | Open::Opinion, _) => self.next(),
             // An empty line goes on, where there is a way on.
@@ -543,17 +553,11 @@ fn replied(
     text: String,
 ) -> Event {
     let reply = reply::hear(lesson, explain, tried, asked, &text);
-    let heard = reply.heard;
+    let heard = reply.first;
     Event::Replied {
         item: explain.rubric.item.clone(),
         attempt,
-        asked: plain(&show_dialogue::question(
-            lesson,
-            explain,
-            tried,
-            asked,
-            tried.turns.is_empty(),
-        )),
+        asked: reply.asked,
         about: reply.about,
         rung: reply.rung,
         text,

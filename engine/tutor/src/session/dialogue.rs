@@ -5,7 +5,7 @@
 //! about it is kept but the turns themselves.
 
 use super::event::Quote;
-use super::question::{Heard, Try};
+use super::question::{Heard, Second, Try};
 use crate::judge::Verdict;
 use crate::rubric::{Criterion, Misconception, Rubric};
 use serde::{Deserialize, Serialize};
@@ -50,7 +50,7 @@ pub(super) struct Asked {
 /// What became of a question.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Turn {
-    Replied(Reply),
+    Replied(Box<Reply>),
     /// The learner asked for more help instead.
     Further {
         about: String,
@@ -65,11 +65,23 @@ pub(super) enum Turn {
 pub(super) struct Reply {
     pub(super) about: String,
     pub(super) rung: Rung,
+    /// The question as the learner read it.
+    pub(super) asked: String,
     pub(super) text: String,
     /// The words in it that decided something.
     pub(super) why: Vec<Quote>,
+    /// What answer and replies say together, as the built-in judge heard it.
+    pub(super) first: Heard,
+    /// The second opinion, where one was asked for.
+    pub(super) second: Option<Second>,
+}
+
+impl Reply {
     /// What answer and replies say together.
-    pub(super) heard: Heard,
+    pub(super) fn heard(&self) -> &Heard {
+        let settled = self.second.as_ref().and_then(|it| it.settled.as_ref());
+        settled.unwrap_or(&self.first)
+    }
 }
 
 /// The dialogue as it went.
@@ -188,7 +200,7 @@ pub(super) fn script<'a>(rubric: &Rubric, tried: &'a Try) -> (Vec<Step<'a>>, Opt
                 Some(Turn::Further { .. }) => {}
                 Some(Turn::Replied(reply)) => {
                     steps.push(Step::Replied(reply));
-                    heard = &reply.heard;
+                    heard = reply.heard();
                     if wrong(rubric, heard).is_some() {
                         return (steps, None);
                     }

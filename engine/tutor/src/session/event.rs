@@ -39,6 +39,8 @@ pub enum Msg {
         item: String,
         /// The try it is about.
         attempt: u32,
+        /// The reply it is about, from 1; 0 for the answer itself.
+        reply: u32,
         /// Who was asked.
         by: String,
         /// What came back, unchecked; or why nothing did.
@@ -79,8 +81,12 @@ pub enum Effect {
         item: String,
         /// The try it is about.
         attempt: u32,
-        /// The answer.
+        /// The reply it is about, from 1; 0 for the answer itself.
+        reply: u32,
+        /// The answer, and the replies up to that one, each on a line of its own.
         text: String,
+        /// What was asked back, and replied to that.
+        dialogue: Vec<(String, String)>,
     },
     /// The learner waits for it no longer.
     StopConsulting,
@@ -315,6 +321,9 @@ pub enum Event {
         /// The try it is about.
         #[serde(rename = "try")]
         attempt: u32,
+        /// The reply it is about, from 1; 0 for the answer itself.
+        #[serde(default, skip_serializing_if = "is_zero")]
+        reply: u32,
         /// Who was asked.
         by: String,
         /// `agrees`, `settles`, `disputes`, or `unusable`.
@@ -328,7 +337,8 @@ pub enum Event {
         /// What it says of each criterion: `yes`, `no` or `unsure`, as it came.
         #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
         says: BTreeMap<String, String>,
-        /// Its quotes that stand in the answer.
+        /// Its quotes that stand in the answer, or in answer and replies as one text, each of them
+        /// on a line of its own.
         #[serde(default)]
         why: Vec<Quote>,
         /// Criteria on which the two differ; the built-in judge's finding stands.
@@ -408,6 +418,11 @@ pub enum Event {
         /// The stage that starts again.
         stage: Stage,
     },
+}
+
+/// Logs of before replies got opinions have none.
+fn is_zero(reply: &u32) -> bool {
+    *reply == 0
 }
 
 impl Event {

@@ -80,7 +80,7 @@ pub struct Session {
     /// Second opinions are to be had.
     consults: bool,
     /// The try whose second opinion the learner waits for.
-    waiting: Option<(String, u32)>,
+    waiting: Option<consult::Consulted>,
     view: View,
 }
 

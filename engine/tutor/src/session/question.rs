@@ -1,6 +1,6 @@
 //! One explain-back question: what was answered, what the judge heard, what was marked.
 
-use super::dialogue::{Asked, Turn};
+use super::dialogue::{Asked, Reply, Turn};
 use super::event::{Event, Quote};
 use crate::judge::Verdict;
 use crate::lesson::{Explain, Lesson};
@@ -161,10 +161,37 @@ impl Try {
     /// What judges heard up to now, in answer and replies.
     pub(super) fn heard(&self) -> &Heard {
         let replied = self.turns.iter().rev().find_map(|turn| match turn {
-            Turn::Replied(reply) => Some(&reply.heard),
+            Turn::Replied(reply) => Some(reply.heard()),
             Turn::Further { .. } | Turn::Left => None,
         });
         replied.unwrap_or_else(|| self.opened())
+    }
+
+    /// The place of the second opinion on a reply, from 1, or on the answer, 0; and how many turns
+    /// there were since.
+    pub(super) fn second_of(&mut self, reply: u32) -> Option<(&mut Option<Second>, usize)> {
+        if reply == 0 {
+            return Some((&mut self.second, self.turns.len()));
+        }
+        let count = self.turns.len();
+        let mut replies = self
+            .turns
+            .iter_mut()
+            .enumerate()
+            .filter_map(|(at, turn)| match turn {
+                Turn::Replied(reply) => Some((at, reply.as_mut())),
+                Turn::Further { .. } | Turn::Left => None,
+            });
+        let (at, reply) = replies.nth(reply as usize - 1)?;
+        Some((&mut reply.second, count - at - 1))
+    }
+
+    /// The replies, oldest first.
+    pub(super) fn replies(&self) -> impl DoubleEndedIterator<Item = &Reply> {
+        self.turns.iter().filter_map(|turn| match turn {
+            Turn::Replied(reply) => Some(reply.as_ref()),
+            Turn::Further { .. } | Turn::Left => None,
+        })
     }
 
     /// What was heard before anything was asked back.
@@ -228,9 +255,9 @@ impl Try {
 
     /// The words behind a criterion, wherever the learner said them last.
     pub(super) fn words_for(&self, id: &str) -> Option<&str> {
-        let replies = self.turns.iter().rev().filter_map(|turn| match turn {
-            Turn::Replied(reply) => Some(&reply.why),
-            Turn::Further { .. } | Turn::Left => None,
+        let replies = self.replies().rev().flat_map(|reply| {
+            let second = reply.second.iter().map(|second| &second.why);
+            [&reply.why].into_iter().chain(second)
         });
         let second = self.second.iter().map(|second| &second.why);
         let mut all = replies.chain([&self.why]).chain(second).flatten();

@@ -7,6 +7,7 @@
 use super::dialogue::{Asked, Reply, Step, Turn, script};
 use super::event::Quote;
 use super::question::{Heard, Try};
+use super::show_dialogue;
 use crate::judge::{Judge, Judgement};
 use crate::lesson::{Explain, Lesson};
 use crate::prose::plain;
@@ -95,9 +96,17 @@ pub(super) fn hear(
     Reply {
         about: asked.about.clone(),
         rung: asked.rung,
+        asked: plain(&show_dialogue::question(
+            lesson,
+            explain,
+            tried,
+            asked,
+            tried.turns.is_empty(),
+        )),
         text: text.to_owned(),
         why,
-        heard,
+        first: heard,
+        second: None,
     }
 }
 

@@ -3,7 +3,7 @@
 use super::dialogue::{Asked, Reply, Rung, Step, incomplete, script};
 use super::question::Try;
 use super::show::{text, verdict};
-use super::show_question::marked;
+use super::show_question::{marked, second};
 use crate::lesson::{Explain, Lesson};
 use crate::prose::{Block, Inline, Tone};
 use crate::rubric::{Blank, Criterion};
@@ -13,8 +13,15 @@ use formula::Values;
 const LONGEST_QUOTE: usize = 90;
 
 /// Everything that was asked, replied and told, and the question that stands open.
-pub(super) fn blocks(lesson: &Lesson, explain: &Explain, tried: &Try) -> Vec<Block> {
-    let (steps, open) = script(&explain.rubric, tried);
+pub(super) fn blocks(lesson: &Lesson, explain: &Explain, tried: &Try, waiting: bool) -> Vec<Block> {
+    let (mut steps, open) = script(&explain.rubric, tried);
+    if waiting {
+        // What follows from the last reply is still to be seen.
+        let last = steps
+            .iter()
+            .rposition(|step| matches!(step, Step::Replied(_)));
+        steps.truncate(last.map_or(0, |last| last + 1));
+    }
     let mut blocks = Vec::new();
     let mut asked = 0;
     for (at, step) in steps.iter().enumerate() {
@@ -31,8 +38,12 @@ pub(super) fn blocks(lesson: &Lesson, explain: &Explain, tried: &Try) -> Vec<Blo
                     &explain.rubric,
                     &reply.text,
                     &reply.why,
-                    &reply.heard,
+                    &reply.first,
                 ));
+                if waiting && at + 1 == steps.len() {
+                    break;
+                }
+                blocks.extend(second(&explain.rubric, &reply.first, reply.second.as_ref()));
                 blocks.extend(heard(reply));
             }
             Step::Told(about) => blocks.extend(told(lesson, explain, about)),
@@ -43,7 +54,7 @@ pub(super) fn blocks(lesson: &Lesson, explain: &Explain, tried: &Try) -> Vec<Blo
             )),
         }
     }
-    debug_assert!(open.is_none() || matches!(steps.last(), Some(Step::Asked(_))));
+    debug_assert!(waiting || open.is_none() || matches!(steps.last(), Some(Step::Asked(_))));
     blocks
 }
 
@@ -182,7 +193,7 @@ fn question_block(
 
 /// What a reply brought, where it brought what was asked for.
 fn heard(reply: &Reply) -> Option<Block> {
-    let met = reply.heard.met.contains(&reply.about);
+    let met = reply.heard().met.contains(&reply.about);
     met.then(|| verdict(Tone::Good, "Yes", vec![text("That was the point.")]))
 }
 

@@ -4,7 +4,7 @@ use super::Session;
 use super::consult::is_in_doubt;
 use super::dialogue::Turn;
 use super::event::Quote;
-use super::question::{Heard, Question, Try};
+use super::question::{Heard, Question, Second, Try};
 use super::show::{capital, paragraph, text, verdict};
 use super::show_dialogue;
 use crate::judge::Verdict;
@@ -51,7 +51,7 @@ fn remembered(lesson: &Lesson, explain: &Explain, first: &Try) -> Vec<Block> {
             &explain.rubric,
             &reply.text,
             &reply.why,
-            &reply.heard,
+            &reply.first,
         )),
         Turn::Further { .. } | Turn::Left => None,
     }));
@@ -85,12 +85,12 @@ fn feedback(
 ) -> Vec<Block> {
     let rubric = &explain.rubric;
     let mut blocks = vec![quoted(explain, tried)];
-    if waiting {
+    if waiting && tried.turns.is_empty() {
         return blocks;
     }
-    blocks.extend(second(explain, tried));
-    blocks.extend(show_dialogue::blocks(lesson, explain, tried));
-    if tried.asked.is_some() {
+    blocks.extend(second(rubric, &tried.first, tried.second.as_ref()));
+    blocks.extend(show_dialogue::blocks(lesson, explain, tried, waiting));
+    if waiting || tried.asked.is_some() {
         return blocks;
     }
     if tried.wants_marks(rubric) || tried.own.is_some() {
@@ -146,9 +146,9 @@ fn feedback(
 }
 
 /// What a second opinion settled, or why the learner waited in vain.
-fn second(explain: &Explain, tried: &Try) -> Option<Block> {
-    let second = tried.second.as_ref()?;
-    let doubted = is_in_doubt(&explain.rubric, &tried.first.unsure);
+pub(super) fn second(rubric: &Rubric, first: &Heard, second: Option<&Second>) -> Option<Block> {
+    let second = second?;
+    let doubted = is_in_doubt(rubric, &first.unsure);
     let says = match (&second.settled, &second.problem) {
         (Some(_), _) => "I was not sure of all of this; who was asked beside me is.".to_owned(),
         (None, Some(problem)) if doubted => format!("Without one: {problem}."),

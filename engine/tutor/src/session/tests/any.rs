@@ -82,9 +82,10 @@ fn opinion() -> impl Strategy<Value = Msg> {
         (word(), says, quote).prop_map(|(id, verdict, quote)| Finding { id, verdict, quote });
     let said = prop_oneof![vec(finding, 0..4).prop_map(Ok), text().prop_map(Err)];
     let item = prop::sample::select(vec!["small/explain", "small/retest", "gone"]);
-    (item, 0..4_u32, said).prop_map(|(item, attempt, said)| Msg::SecondOpinion {
+    (item, 0..4_u32, 0..3_u32, said).prop_map(|(item, attempt, reply, said)| Msg::SecondOpinion {
         item: item.to_owned(),
         attempt,
+        reply,
         by: "somebody".to_owned(),
         said,
     })
@@ -238,11 +239,13 @@ pub(crate) fn event() -> impl Strategy<Value = Event> {
                 prop::option::of(text()),
                 prop::option::of(word()),
                 btree_map(word(), word(), 0..3),
+                0..3_u32,
             ),
         )
             .prop_map(|(a, b, c, d)| Event::SecondOpinion {
                 item: a.0,
                 attempt: a.1,
+                reply: d.3,
                 by: a.2,
                 result: a.3,
                 problem: d.0,
