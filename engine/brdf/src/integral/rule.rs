@@ -33,6 +33,9 @@ pub(super) struct Rule {
     pub(super) radial: Vec<(f64, f64)>,
     /// cos φ of the midpoints of half a turn.
     pub(super) cosines: Vec<f64>,
+    /// The N·V over α from where on polar coordinates are better than cartesian ones of grazing views: with
+    /// more nodes the latter stay good for longer.
+    pub(super) seam: f64,
 }
 
 impl Rule {
@@ -41,19 +44,20 @@ impl Rule {
         if R::EPSILON < 1e-10 { &FINE } else { &COARSE }
     }
 
-    fn new(n: usize) -> Rule {
+    fn new(n: usize, seam: f64) -> Rule {
         let cosines = (0..n)
             .map(|i| libm::cos(PI * (i as f64 + 0.5) / n as f64))
             .collect();
         Rule {
             radial: gauss_legendre(n),
             cosines,
+            seam,
         }
     }
 }
 
-static COARSE: LazyLock<Rule> = LazyLock::new(|| Rule::new(32));
-static FINE: LazyLock<Rule> = LazyLock::new(|| Rule::new(128));
+static COARSE: LazyLock<Rule> = LazyLock::new(|| Rule::new(32, 1.4));
+static FINE: LazyLock<Rule> = LazyLock::new(|| Rule::new(128, 4.3));
 
 static AVERAGE: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| gauss_legendre(24));
 
