@@ -2,12 +2,12 @@
 //!
 //! | what | function | one at a time |
 //! |---|---|---|
-//! | D V F cos θ from cosines | [`specular`] | [`crate::d_ggx`], [`crate::v_ggx`], [`crate::f_schlick`] |
-//! | D V F cos θ from vectors | [`specular_vectors`], [`specular_vec3`] | [`crate::Specular::eval_cos`] |
-//! | F of a conductor, three colours | [`Conductor`], [`conductor_rgb`] | [`crate::f_conductor`] |
-//! | lights drawn, density, weight | [`sample`] | [`crate::Ggx::sample`] |
-//! | random walks between mirrors | [`crate::walk::walk_mirrors`] | [`crate::walk::walk`] |
-//! | any term | [`crate::Term::f32_block`], [`crate::Term::f64_block`] | its function |
+//! | D V F cos θ from cosines | [`specular`] | [`d_ggx`](crate::d_ggx), [`v_ggx`](crate::v_ggx), [`f_schlick`](crate::f_schlick) |
+//! | D V F cos θ from vectors | [`specular_vectors`], [`specular_vec3`] | [`Specular::eval_cos`](crate::Specular::eval_cos) |
+//! | F of a conductor, three colours | [`Conductor`], [`conductor_rgb`] | [`f_conductor`](crate::f_conductor) |
+//! | lights drawn, density, weight | [`sample`] | [`Ggx::sample`](crate::Ggx::sample) |
+//! | random walks between mirrors | [`walk::walk_mirrors`](crate::walk::walk_mirrors) | [`walk::walk`](crate::walk::walk) |
+//! | any term | [`Term::f32_block`](crate::Term::f32_block), [`Term::f64_block`](crate::Term::f64_block) | its function |
 //! | the machine's limit | [`divide`], [`square_root`], [`multiply`] | |
 //!
 //! Every loop is written once and compiled for the baseline, for AVX2 with FMA and for AVX-512;
