@@ -424,15 +424,16 @@ impl Drawing {
     }
 }
 
-/// Divisions, square roots and products of a sample with density and weight.
-pub(super) const SAMPLE: (f64, f64, f64) = (3.0, 2.0, 25.0);
+/// Divisions, square roots and products of a sample with density and weight of the direction as
+/// rounded.
+pub(super) const SAMPLE: (f64, f64, f64) = (3.0, 2.0, 30.0);
 
 fn sample() -> Vec<Subject> {
     let ggx = Ggx::new(f64::from(0.4f32));
     let row = |isa: Isa| {
         let mut drawing = Drawing::new();
         drawing.draw(isa);
-        // Weight and density of the direction that was drawn: rounded, it is another one.
+        // Weight and density of the direction as rounded.
         let v = Drawing::VIEW.to_array().map(f64::from);
         let l = |i: usize| drawing.l.each_ref().map(|l| f64::from(l[i]));
         let mut errors_of = errors(&drawing.weight, |i| {

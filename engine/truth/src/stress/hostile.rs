@@ -137,6 +137,7 @@ fn promised(subject: &Subject, args: &[f64]) -> bool {
     let inside = |(param, &arg): (&Param, &f64)| match param.name {
         "alpha" => (1e-4..=1.0).contains(&arg),
         name if name.contains("_dot_") => (-1.0..=1.0).contains(&arg),
+        "u_0" | "u_1" => (0.0..1.0).contains(&arg),
         name if name.ends_with("_z") => true,
         _ => (param.range.0..=param.range.1).contains(&arg),
     };

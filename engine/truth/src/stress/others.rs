@@ -1,7 +1,8 @@
 //! What can be searched outside the registry: functions without a name there, and the batches.
 
-use super::subject::{Against, Double, Single, Subject};
-use brdf::batch::{self, Conductor, Cosines, Input, Isa, Vectors};
+use super::subject::{Against, Double, Single, Subject, sampler_params};
+use brdf::batch::{self, Conductor, Cosines, Input, Isa, Samples, Vectors};
+use brdf::glam::Vec3;
 use brdf::{Param, term, vector_terms};
 use std::sync::LazyLock;
 
@@ -135,7 +136,73 @@ pub(super) fn batches() -> Vec<Subject> {
             _ => f64::NAN,
         }
     );
+    all.extend(samples());
     all
+}
+
+/// Density and weight of what [`batch::sample`] draws.
+fn samples() -> Vec<Subject> {
+    const PDF: &str = "vector_pdf_bounded";
+    const WEIGHT: &str = "vector_weight_bounded";
+    type Single32 = fn(&[f32]) -> f32;
+    let rows: [(&str, Single32, &str, Isa); 4] = [
+        (
+            "batch_sample_pdf",
+            |args| sample(*BEST, args)[3],
+            PDF,
+            *BEST,
+        ),
+        (
+            "batch_sample_weight",
+            |args| sample(*BEST, args)[4],
+            WEIGHT,
+            *BEST,
+        ),
+        (
+            "batch_sample_pdf_baseline",
+            |args| sample(Isa::BASELINE, args)[3],
+            PDF,
+            Isa::BASELINE,
+        ),
+        (
+            "batch_sample_weight_baseline",
+            |args| sample(Isa::BASELINE, args)[4],
+            WEIGHT,
+            Isa::BASELINE,
+        ),
+    ];
+    let subject = |(name, single, form, isa)| Subject {
+        name,
+        params: sampler_params(),
+        single: Single::Value(single),
+        // In double precision there is no batch.
+        double: |_| f64::NAN,
+        against: Against::DrawnBatch(form, isa),
+    };
+    rows.into_iter().map(subject).collect()
+}
+
+/// What [`batch::sample`] draws for a view, a width and two numbers: direction, density, weight.
+fn sample(isa: Isa, args: &[f32]) -> [f32; 5] {
+    let [x, y, z, alpha, u0, u1] = *args else {
+        return [f32::NAN; 5];
+    };
+    let [mut l_x, mut l_y, mut l_z, mut pdf, mut weight] = [[f32::NAN]; 5];
+    let out = Samples {
+        l: [&mut l_x, &mut l_y, &mut l_z],
+        pdf: &mut pdf,
+        weight: &mut weight,
+    };
+    batch::sample(isa, Vec3::new(x, y, z), alpha, [&[u0], &[u1]], out);
+    [l_x, l_y, l_z, pdf, weight].map(|[value]| value)
+}
+
+/// The direction drawn, and the arguments of its weight and density.
+pub(super) fn drawn(isa: Isa, args: &[f64]) -> Vec<f64> {
+    let single: Vec<f32> = args.iter().map(|&x| x as f32).collect();
+    let drawn = sample(isa, &single);
+    let l = drawn[..3].iter().map(|&x| f64::from(x));
+    l.chain(args.iter().take(4).copied()).collect()
 }
 
 fn specular(isa: Isa, args: &[f32]) -> f32 {

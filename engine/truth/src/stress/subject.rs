@@ -2,6 +2,7 @@
 
 use super::{Precision, others};
 use crate::{Big, at_precision, value};
+use brdf::batch::Isa;
 use brdf::{Ggx, Param, Rusinkiewicz, Sampler, Term};
 use std::sync::LazyLock;
 
@@ -39,6 +40,8 @@ pub(super) enum Against {
     Drawn(&'static str, Sampler),
     /// The textbook form of that name: of a batch, in single precision only.
     Batch(&'static str),
+    /// The same at what [`brdf::batch::sample`] drew with that instruction set.
+    DrawnBatch(&'static str, Isa),
     /// The quadrature of that integral which is written here, of another integrand by another rule: of
     /// an albedo there is no form.
     Albedo,
@@ -83,7 +86,7 @@ impl Subject {
 
     /// Whether it promises nothing outside the ranges of its arguments.
     pub(super) fn is_batch(&self) -> bool {
-        matches!(self.against, Against::Batch(_))
+        matches!(self.against, Against::Batch(_) | Against::DrawnBatch(..))
     }
 
     /// How much of the effort it is worth: a quadrature is thousands of times a formula.
@@ -116,6 +119,7 @@ impl Subject {
             Against::Form | Against::Jitter => value(self.name, args),
             Against::Drawn(form, sampler) => value(form, &drawn(sampler, precision, args)),
             Against::Batch(form) => value(form, args),
+            Against::DrawnBatch(form, isa) => value(form, &others::drawn(isa, args)),
             Against::Albedo => crate::albedo::value(self.name, args).map(|e| Big::new(e, 192)),
         }
     }
@@ -128,7 +132,7 @@ impl Subject {
             Against::Drawn(form, sampler) => {
                 at_precision(form, &drawn(sampler, Precision::Double, args), BITS)
             }
-            Against::Albedo => None,
+            Against::Albedo | Against::DrawnBatch(..) => None,
             Against::Batch(form) => at_precision(form, args, BITS),
             Against::Form | Against::Jitter => at_precision(self.name, args, BITS),
         }
@@ -139,6 +143,9 @@ impl Subject {
         match self.against {
             Against::Drawn(form, sampler) => {
                 at_drawn(form, sampler, &drawn(sampler, Precision::Single, args))
+            }
+            Against::DrawnBatch(form, isa) => {
+                at_drawn(form, Sampler::BoundedCap, &others::drawn(isa, args))
             }
             _ => (self.double)(args),
         }
@@ -187,7 +194,7 @@ pub fn subjects() -> &'static [Subject] {
 }
 
 /// A view, a width and two random numbers.
-fn sampler_params() -> Vec<Param> {
+pub(super) fn sampler_params() -> Vec<Param> {
     let pdf = brdf::vector_terms()
         .iter()
         .find(|term| term.name == "vector_pdf");
