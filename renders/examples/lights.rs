@@ -1,7 +1,11 @@
 //! What skipping saves where there are 64 lights: `cargo run --release -p renders --example lights
 //! -- [SIZE]`. The sphere's radius is 0.45 of half the picture.
 
-use renders::{Backend, Fingerprint, Light, Options, Scene, raw, shaded_points};
+mod common;
+
+use common::{Bug, TWICE, processor};
+use renders::{Backend, Light, Options, Scene, raw, shaded_points};
+
 const LIGHTS: u32 = 64;
 const ROUNDS: u32 = 12;
 
@@ -38,25 +42,11 @@ fn near(lights: Vec<Light>, distance: f64) -> Vec<Light> {
     lights.into_iter().map(near).collect()
 }
 
-/// Nanoseconds of processor time that this process has had, where the system says (Linux): what
-/// else runs on the machine hardly changes it.
-fn processor() -> Option<f64> {
-    let tasks = std::fs::read_dir("/proc/self/task").ok()?;
-    let had = |task: std::io::Result<std::fs::DirEntry>| -> Option<f64> {
-        let text = std::fs::read_to_string(task.ok()?.path().join("schedstat")).ok()?;
-        text.split_whitespace().next()?.parse().ok()
-    };
-    Some(tasks.filter_map(had).sum())
-}
-
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let size = std::env::args()
         .nth(1)
         .map_or(Ok(512), |text| text.parse())?;
-    let library = formula::Library::new();
-    let right = formula::parse("d_ggx() * v_ggx() * f_schlick() * n_dot_l")?;
-    let wrong =
-        formula::parse("d_ggx() * v_ggx() * f_schlick() * n_dot_l / (4 * n_dot_l * n_dot_v)")?;
+    let bug = Bug::new(TWICE)?;
     println!(
         "{LIGHTS} lights, {size}² pixels, milliseconds of processor, best of {ROUNDS} rounds in turns"
     );
@@ -73,20 +63,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ("all around, 2 radii away", near(spiral(1.0), 2.0)),
         ("all headlights", vec![Light::distant(0.0); LIGHTS as usize]),
     ] {
-        let fingerprint = Fingerprint {
-            lesson: "lights",
-            id: "lights",
-            title: String::new(),
-            caption: String::new(),
-            library: &library,
-            right: &right,
-            wrong: &wrong,
-            scene: Scene {
-                lights,
-                radius: 0.45,
-                ..Scene::new(0.5, 0.95, 0.0)
-            },
-        };
+        let fingerprint = bug.on(Scene {
+            lights,
+            radius: 0.45,
+            ..Scene::new(0.5, 0.95, 0.0)
+        });
         let options = |skip| Options {
             size,
             backend: Backend::Cpu,
@@ -99,7 +80,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 let start = processor().ok_or("no processor time to be had")?;
                 raw(&fingerprint, &options(skip))?;
                 let end = processor().ok_or("no processor time to be had")?;
-                *slot = slot.min((end - start) * 1e-6);
+                *slot = slot.min(end - start);
             }
         }
         let points = [true, false].map(|skip| shaded_points(&fingerprint, &options(skip)));

@@ -1,7 +1,10 @@
 //! What a frame costs while a scene changes: `cargo run --release -p renders --example preview --
 //! [SIZE]`.
 
-use renders::{Fingerprint, Preview, Scene};
+mod common;
+
+use common::{Bug, rough_metal};
+use renders::{Preview, Scene};
 use std::time::Instant;
 
 const FRAMES: usize = 400;
@@ -22,19 +25,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let size = std::env::args()
         .nth(1)
         .map_or(Ok(256), |text| text.parse())?;
-    let library = formula::Library::new();
-    let right = formula::parse("d_ggx() * v_ggx() * f_schlick() * n_dot_l")?;
-    let wrong = formula::parse("d_ggx() * v_ggx() * f_schlick(v_dot_h = n_dot_v) * n_dot_l")?;
-    let fingerprint = Fingerprint {
-        lesson: "preview",
-        id: "preview",
-        title: String::new(),
-        caption: String::new(),
-        library: &library,
-        right: &right,
-        wrong: &wrong,
-        scene: Scene::new(0.7, 0.95, 60.0),
-    };
+    let bug = Bug::new("d_ggx() * v_ggx() * f_schlick(v_dot_h = n_dot_v) * n_dot_l")?;
+    let fingerprint = bug.on(rough_metal());
     let start = Instant::now();
     let mut preview = Preview::new(&fingerprint)?;
     println!(

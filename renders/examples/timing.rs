@@ -1,6 +1,9 @@
 //! Where the time of a picture goes: `cargo run --release -p renders --example timing -- [SIZE]`.
 
-use renders::{Backend, Fingerprint, Options, Precision, Scene, raw, render};
+mod common;
+
+use common::{Bug, TWICE, processor, rough_metal};
+use renders::{Backend, Options, Precision, raw, render};
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
@@ -8,7 +11,7 @@ use std::time::Instant;
 /// The machine's noise only ever adds to the first and hardly touches the second.
 fn time(what: &str, mut work: impl FnMut()) {
     const RUNS: u32 = 30;
-    let before = processor_ticks();
+    let before = processor();
     let best = (0..RUNS)
         .map(|_| {
             let start = Instant::now();
@@ -16,38 +19,19 @@ fn time(what: &str, mut work: impl FnMut()) {
             start.elapsed().as_secs_f64() * 1e3
         })
         .fold(f64::INFINITY, f64::min);
-    // A tick is a hundredth of a second on Linux; elsewhere there is no such figure.
     let processor = before
-        .zip(processor_ticks())
-        .map(|(a, b)| 10.0 * (b - a) / f64::from(RUNS));
+        .zip(processor())
+        .map(|(a, b)| (b - a) / f64::from(RUNS));
     let processor = processor.map_or("?".to_owned(), |ms| format!("{ms:.1}"));
     println!("{what:28} {best:8.2} ms, {processor:>6} ms of processor");
-}
-
-fn processor_ticks() -> Option<f64> {
-    let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
-    let fields: Vec<&str> = stat.rsplit(')').next()?.split_whitespace().collect();
-    fields.get(11)?.parse().ok()
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let size = std::env::args()
         .nth(1)
         .map_or(Ok(512), |text| text.parse())?;
-    let library = formula::Library::new();
-    let right = formula::parse("d_ggx() * v_ggx() * f_schlick() * n_dot_l")?;
-    let wrong =
-        formula::parse("d_ggx() * v_ggx() * f_schlick() * n_dot_l / (4 * n_dot_l * n_dot_v)")?;
-    let fingerprint = Fingerprint {
-        lesson: "timing",
-        id: "timing",
-        title: "Timing".to_owned(),
-        caption: "How long a picture takes".to_owned(),
-        library: &library,
-        right: &right,
-        wrong: &wrong,
-        scene: Scene::new(0.7, 0.95, 60.0),
-    };
+    let bug = Bug::new(TWICE)?;
+    let fingerprint = bug.on(rough_metal());
     let options = Options {
         size,
         backend: Backend::Cpu,
