@@ -349,3 +349,36 @@ fn keys_typed_while_the_terminal_is_asked_are_not_lost() {
     terminal.send("\u{3}");
     assert_eq!(terminal.wait(), 0);
 }
+
+#[test]
+fn a_number_half_typed_survives_a_power_cut() {
+    let home = tempfile::tempdir().expect("a folder");
+    go_to_exercise(home.path());
+    let mut terminal = learn(home.path(), (80, 24));
+    terminal.wait_for("Ctrl-G skip this exercise");
+    terminal.send("0.4^2/");
+    let log = || {
+        fs::read_dir(home.path().join("p"))
+            .ok()?
+            .filter_map(|entry| Some(entry.ok()?.path()))
+            .filter(|path| path.extension().is_some_and(|it| it == "toml"))
+            .filter_map(|path| fs::read_to_string(path).ok())
+            .find(|text| text.contains("0.4^2/"))
+    };
+    common::wait_for("the draft in the log", log);
+    terminal.send("pi");
+    terminal.wait_for("0.4^2/pi");
+    terminal.kill();
+    let text = {
+        let folder = home.path().join("p").display().to_string();
+        let args = ["learn", "smith-g2", "--plain", "--progress", &folder];
+        common::stdout(&common::run_with(home.path(), &args, ""))
+    };
+    assert!(text.contains("You had begun to write:\n| 0.4^2/"), "{text}");
+    let mut terminal = learn(home.path(), (80, 24));
+    terminal.wait_for("0.4^2/");
+    terminal.send("2");
+    terminal.wait_for("0.4^2/2");
+    terminal.send("\u{3}");
+    assert_eq!(terminal.wait(), 0);
+}

@@ -424,7 +424,7 @@ impl Plain<'_> {
                 };
                 lines.push(format!("[Empty line: {label}]"));
             }
-            Input::Number { label, note } => {
+            Input::Number { label, note, draft } => {
                 let note = if note.is_empty() {
                     String::new()
                 } else {
@@ -436,6 +436,10 @@ impl Plain<'_> {
                     "",
                     "  ",
                 ));
+                if !draft.is_empty() && !same_screen {
+                    lines.push("You had begun to write:".into());
+                    lines.extend(draft.lines().map(|line| format!("| {line}")));
+                }
             }
             Input::Reply { label, note, draft } => {
                 lines.extend(text::wrap_plain(

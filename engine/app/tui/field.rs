@@ -37,7 +37,7 @@ impl Field {
     pub fn of(input: &Input) -> Self {
         match input {
             Input::None => Self::None,
-            Input::Number { .. } => Self::Line(Box::new(line(""))),
+            Input::Number { draft, .. } => Self::Line(Box::new(line(&draft.replace('\n', " ")))),
             Input::Reply { draft, .. } => Self::Line(Box::new(reply(draft))),
             Input::Text { draft, .. } => Self::Editor(Box::new(editor(draft))),
             Input::Code { text, .. } => Self::Code(Box::new(code(text))),

@@ -15,7 +15,7 @@ use crate::fingerprints::{Subject, fingerprint};
 use crate::sitting::{Request, Sitting};
 
 /// A pause in typing after which the draft is saved.
-const DRAFT_AFTER: Duration = Duration::from_millis(1500);
+const DRAFT_AFTER: Duration = Duration::from_millis(600);
 
 /// How fast the sign turns while something is waited for.
 const SPINNING: Duration = Duration::from_millis(120);
@@ -467,7 +467,10 @@ impl LessonScreen {
         if self.typed.take().is_some()
             && matches!(
                 self.shown.input,
-                Input::Text { .. } | Input::Reply { .. } | Input::Code { .. }
+                Input::Number { .. }
+                    | Input::Text { .. }
+                    | Input::Reply { .. }
+                    | Input::Code { .. }
             )
         {
             let text = self.field.text().unwrap_or_default();
@@ -534,6 +537,14 @@ fn inside(at: (u16, u16), size: (u16, u16), clicked: (u16, u16)) -> Option<(u16,
 /// Whether a field made for one serves for the other, text and all.
 fn same_input(a: &Input, b: &Input) -> bool {
     match (a, b) {
+        (
+            Input::Number { label, note, .. },
+            Input::Number {
+                label: other_label,
+                note: other_note,
+                ..
+            },
+        ) => label == other_label && note == other_note,
         (Input::Text { label: a, .. }, Input::Text { label: b, .. })
         | (Input::Reply { label: a, .. }, Input::Reply { label: b, .. })
         | (Input::Code { label: a, .. }, Input::Code { label: b, .. })

@@ -92,6 +92,8 @@ pub enum Input {
         label: String,
         /// How near is near enough, said beforehand.
         note: String,
+        /// What was typed before, and not yet handed in.
+        draft: String,
     },
     /// Several lines in the learner's own words.
     Text {

@@ -69,7 +69,7 @@ pub fn draw(frame: &mut Frame, area: Rect, screen: &LessonScreen, palette: Palet
     let view = screen.view();
     let (label, note) = match &view.input {
         Input::None => return,
-        Input::Number { label, note } | Input::Reply { label, note, .. } => {
+        Input::Number { label, note, .. } | Input::Reply { label, note, .. } => {
             (label.clone(), note.clone())
         }
         Input::Text { label, .. } => (label.clone(), String::new()),

@@ -32,6 +32,9 @@ impl Session {
             Event::GoOn { item, round, step } => {
                 let step = step.clone();
                 self.turn(item, *round, problem::Turn::GoneOn { step });
+                if let Some(problem) = self.problems.get_mut(&(item.clone(), *round)) {
+                    problem.draft = None;
+                }
             }
             Event::Hint {
                 item,
@@ -52,8 +55,11 @@ impl Session {
                 }
             }
             Event::Draft { item, text } if self.lesson.exercise(item).is_some() => {
-                self.begin(item, 0);
-                if let Some(problem) = self.problems.get_mut(&(item.clone(), 0)) {
+                // It was typed on the screen shown, whatever round that is.
+                let shown = self.problem_key(self.here()).filter(|key| key.0 == *item);
+                let key = shown.unwrap_or_else(|| (item.clone(), 0));
+                self.begin(item, key.1);
+                if let Some(problem) = self.problems.get_mut(&key) {
                     problem.draft = Some(text.clone());
                 }
             }

@@ -13,7 +13,7 @@ use super::screen::Screen;
 use crate::exercise::{self, Draw, Marking};
 use crate::judge::{JUDGE_VERSION, Judgement};
 use crate::lesson::{Exercise, Explain, Lesson, Task};
-use crate::view::Saving;
+use crate::view::{Input, Saving};
 
 /// What a message leads to.
 #[derive(Default)]
@@ -416,6 +416,14 @@ impl Session {
                     Decided::event(Event::Draft {
                         item: exercise.id.text.clone(),
                         text,
+                    })
+                }
+                None if problem.draft.as_deref().unwrap_or_default() != text
+                    && matches!(self.view.input, Input::Number { .. }) =>
+                {
+                    let item = self.problem_key(screen).map(|key| key.0);
+                    item.map_or_else(Decided::default, |item| {
+                        Decided::event(Event::Draft { item, text })
                     })
                 }
                 _ => Decided::default(),

@@ -348,10 +348,12 @@ pub(super) fn input(session: &Session, problem: &Problem, step: &str) -> Input {
         Task::FindTheMistake { .. } if step == "line" => Input::Number {
             label: ask(problem, step),
             note: format!("its number, 1 to {}", draw.shown.len()),
+            draft: problem.draft.clone().unwrap_or_default(),
         },
         Task::Numeric { .. } | Task::FindTheMistake { .. } => Input::Number {
             label: ask(problem, step),
             note: exercise::tolerance_words(exercise),
+            draft: problem.draft.clone().unwrap_or_default(),
         },
     }
 }

@@ -241,3 +241,43 @@ fn a_whole_lesson_ends_in_a_teachers_words() {
         "PASS on retry, after the tiles re-teach and the units re-teach",
     );
 }
+
+/// What stands in the field.
+fn draft(s: &Session) -> &str {
+    match &s.screen().input {
+        Input::Number { draft, .. } => draft,
+        other => panic!("no number is asked for: {other:?}"),
+    }
+}
+
+#[test]
+fn a_number_half_typed_is_kept_until_it_is_answered() {
+    for key in ["faded:2", "practice:small/area", "retest:small/area"] {
+        let mut s = at(key);
+        let mut saved = Vec::new();
+        // Only what was done from here on is looked at: the way here is replayed as it was.
+        let mut begun = begin();
+        for _ in 0..60 {
+            if begun.screen().key == key {
+                break;
+            }
+            let msg = if begun.screen().can.next {
+                Msg::Next
+            } else {
+                Msg::Skip
+            };
+            saved.extend(send(&mut begun, [msg]));
+        }
+        let typed = send(&mut s, [Msg::Draft("0.4^".into())]);
+        assert!(matches!(&typed[..], [Event::Draft { text, .. }] if text == "0.4^"));
+        assert_eq!(send(&mut s, [Msg::Draft("0.4^".into())]), [], "once");
+        saved.extend(typed);
+        let (mut again, changed) = Session::resume(small(), s.start.clone(), &small().hash, &saved);
+        assert_eq!(changed, None);
+        assert_eq!((again.screen().key.as_str(), draft(&again)), (key, "0.4^"));
+        send(&mut again, [Msg::Hint]);
+        assert_eq!(draft(&again), "0.4^", "a hint leaves it");
+        send(&mut again, [answer("1")]);
+        assert_eq!(draft(&again), "", "an answer takes its place");
+    }
+}
