@@ -194,3 +194,59 @@ fn a_dumb_terminal_gets_plain_text_and_interrupting_saves() {
     terminal.wait_for("Saved.");
     assert_eq!(terminal.wait(), 130);
 }
+
+/// The log of the only session.
+fn log(home: &Path) -> String {
+    fs::read_dir(home.join("p"))
+        .expect("a folder")
+        .filter_map(|entry| fs::read_to_string(entry.ok()?.path()).ok())
+        .next()
+        .unwrap_or_default()
+}
+
+#[test]
+fn what_cannot_be_meant_as_an_answer_is_none() {
+    // A choice, a number, and an explanation to write.
+    for (skips, asked) in [
+        (3, "[Type a number]"),
+        (4, "keep 4 digits"),
+        (14, "hands it in]"),
+    ] {
+        for (typed, said) in [
+            ("?", ":hint  a hint; the third one is the answer"),
+            ("help", ":skip  skip this"),
+            (":?", ":quit  save and leave"),
+            ("", "! "),
+            (":foo", ""),
+        ] {
+            let home = tempfile::tempdir().expect("a folder");
+            let input = format!("{}{typed}\n", ":skip\n".repeat(skips));
+            let text = stdout(&learn(home.path(), "smith-g2", "p", &input));
+            let after = text
+                .rsplit_once(&format!("> {typed}\n"))
+                .expect("it is echoed")
+                .1;
+            assert!(after.contains(said), "{typed:?}: {text}");
+            // Said, and asked again.
+            if typed != ":foo" {
+                assert!(after.contains(asked), "{typed:?} at {asked}: {text}");
+                let log = log(home.path());
+                for kind in ["attempt", "explained", "draft"] {
+                    assert!(!log.contains(&format!("\"{kind}\"")), "{typed:?}: {log}");
+                }
+            }
+        }
+    }
+    let home = tempfile::tempdir().expect("a folder");
+    let input = format!("{}quit\n:q\n", ":skip\n".repeat(4));
+    let text = stdout(&learn(home.path(), "smith-g2", "p", &input));
+    assert!(
+        text.contains("! Commands begin with a colon: :quit"),
+        "{text}"
+    );
+    assert!(
+        text.contains("Saved. The same command goes on from here."),
+        "{text}"
+    );
+    assert!(!log(home.path()).contains("\"attempt\""));
+}

@@ -192,13 +192,21 @@ impl Plain<'_> {
         let view = self.sitting.view();
         let command = line.trim();
         let msg = match command {
-            ":quit" | ":q" => Msg::Quit,
+            ":quit" | ":q" | ":exit" => Msg::Quit,
             ":back" | ":b" => Msg::Back,
             ":skip" | ":s" => Msg::Skip,
             ":hint" | ":h" => Msg::Hint,
             ":due" => return self.ask_due(),
             ":help" | ":?" => {
                 help(view)?;
+                return Ok(Then::Stay);
+            }
+            _ if self.editor.is_none() && asks_for_help(command) => {
+                help(view)?;
+                return Ok(Then::Stay);
+            }
+            _ if is_command_without_colon(command, &view.input) => {
+                output::line(&format!("! Commands begin with a colon: :{command}"))?;
                 return Ok(Then::Stay);
             }
             _ if matches!(view.input, Input::Text { .. }) => return self.take_text(line),
@@ -273,7 +281,7 @@ impl Plain<'_> {
 
     /// A line of an explanation; one `.` hands it in.
     fn take_text(&mut self, line: &str) -> Result<Then, Failure> {
-        let lines = self.editor.get_or_insert_default();
+        let lines = self.editor.as_deref().unwrap_or_default();
         let empty = lines.iter().all(|line| line.trim().is_empty());
         if line.trim() == "." {
             let answer = lines.join("\n");
@@ -288,6 +296,7 @@ impl Plain<'_> {
             output::line("! Say it in your own words, and end with a line of one `.`")?;
             return Ok(Then::Stay);
         }
+        let lines = self.editor.get_or_insert_default();
         lines.push(line.to_owned());
         let draft = lines.join("\n");
         Ok(self.tell(Msg::Draft(draft)))
@@ -343,8 +352,11 @@ impl Plain<'_> {
         if command.is_empty() && self.editor.is_none() {
             return Ok(self.tell(Msg::Next));
         }
-        self.editor.get_or_insert_default().push(line.to_owned());
-        Ok(Then::Stay)
+        let lines = self.editor.get_or_insert_default();
+        lines.push(line.to_owned());
+        // Whatever ends the input, what was typed is kept.
+        let draft = lines.join("\n");
+        Ok(self.tell(Msg::Draft(draft)))
     }
 
     /// Leaving an explanation half written: what there is was kept line by line.
@@ -584,18 +596,29 @@ fn headline(view: &View) -> String {
 }
 
 fn help(view: &View) -> Result<(), Failure> {
-    let mut lines = vec!["An empty line goes on.".to_owned()];
+    let mut lines = Vec::new();
     let mut say = |works: bool, line: &str| {
         if works {
             lines.push(line.to_owned());
         }
     };
+    say(view.can.next, "An empty line goes on.");
     say(
         view.can.hint.is_some(),
-        ":hint  one hint more; the third is the answer",
+        match view.can.hint {
+            Some(1) => ":hint  a hint; the third one is the answer",
+            Some(2) => ":hint  a second hint; the third one is the answer",
+            _ => ":hint  the answer",
+        },
     );
     say(view.can.back, ":back  the screen before; nothing is lost");
-    say(view.can.skip, ":skip  leave this out");
+    say(
+        view.can.skip,
+        &match view.skip_label.as_str() {
+            "" => ":skip  leave this out".to_owned(),
+            label => format!(":skip  {label}"),
+        },
+    );
     say(
         true,
         ":quit  save and leave; the same command comes back here",
@@ -609,6 +632,24 @@ fn help(view: &View) -> Result<(), Failure> {
         "Numbers: 0.56, 5.6e-1, 0,56 or arithmetic such as 0.4^4, 1/pi.",
     );
     print(&lines)
+}
+
+/// Whether a line can be meant for nobody but the tutor.
+fn asks_for_help(line: &str) -> bool {
+    matches!(
+        line.to_lowercase().as_str(),
+        "?" | "??" | "help" | "help!" | "help?"
+    )
+}
+
+/// Whether a line is the name of a command where no words are asked for.
+fn is_command_without_colon(line: &str, input: &Input) -> bool {
+    const NAMES: [&str; 5] = ["quit", "exit", "back", "skip", "hint"];
+    let wants_words = matches!(
+        input,
+        Input::Text { .. } | Input::Reply { .. } | Input::Code { .. }
+    );
+    !wants_words && NAMES.contains(&line)
 }
 
 /// A text with the numbers of its lines.
