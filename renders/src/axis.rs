@@ -2,21 +2,23 @@
 
 /// One axis of a chart: a range that is not empty, linear or logarithmic.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Axis {
+pub struct Axis {
     low: f64,
     high: f64,
     log: bool,
 }
 
-/// A grid line, and what is written beside it (nothing at a minor one).
-pub(crate) struct Tick {
+/// A grid line of an [`Axis`], and what is written beside it (nothing at a minor one).
+pub struct Tick {
+    /// The value.
     pub at: f64,
+    /// The value as it is written, with a true minus sign; empty at a minor line.
     pub label: String,
 }
 
 impl Tick {
     /// Width of the grid line in pixels, for labels of size `em`.
-    pub fn weight(&self, em: f64) -> f64 {
+    pub(crate) fn weight(&self, em: f64) -> f64 {
         if self.label.is_empty() {
             0.05 * em
         } else {
@@ -26,8 +28,14 @@ impl Tick {
 }
 
 impl Axis {
+    /// An axis from one value to another; `None` where nothing can stand on it, as a value that is
+    /// not positive on a logarithmic one.
+    pub fn over(range: (f64, f64), log: bool) -> Option<Self> {
+        Self::fit([].into_iter(), log, Some(range), false)
+    }
+
     /// An axis that holds every drawable value, or `range`; `None` where there is none.
-    pub fn fit(
+    pub(crate) fn fit(
         values: impl Iterator<Item = f64>,
         log: bool,
         range: Option<(f64, f64)>,
@@ -78,13 +86,13 @@ impl Axis {
     }
 
     /// The same axis with other ends, where they are given; `None` where nothing is between them.
-    pub fn with_ends(self, (low, high): (Option<f64>, Option<f64>)) -> Option<Self> {
+    pub(crate) fn with_ends(self, (low, high): (Option<f64>, Option<f64>)) -> Option<Self> {
         if low.is_none() && high.is_none() {
             return Some(self);
         }
         let range = (low.unwrap_or(self.low), high.unwrap_or(self.high));
         let fits = range.0 < range.1;
-        fits.then(|| Self::fit([].into_iter(), self.log, Some(range), false))?
+        fits.then(|| Self::over(range, self.log))?
     }
 
     /// The same axis out to the ticks that lie just beyond its ends: a curve that stops short of a
@@ -268,7 +276,7 @@ mod tests {
 
     #[track_caller]
     fn check_labels(low: f64, high: f64, log: bool, count: usize, expected: &[&str]) {
-        let axis = Axis::fit([].into_iter(), log, Some((low, high)), false).expect("a range");
+        let axis = Axis::over((low, high), log).expect("a range");
         let labels: Vec<String> = axis
             .ticks(count)
             .into_iter()
@@ -319,7 +327,7 @@ mod tests {
     #[test]
     fn an_axis_reaches_the_ticks_that_are_near() {
         let ends = |low, high| {
-            let axis = Axis::fit([].into_iter(), false, Some((low, high)), false);
+            let axis = Axis::over((low, high), false);
             let axis = axis.expect("a range").to_ticks(6);
             (axis.low, axis.high)
         };

@@ -44,6 +44,7 @@ mod stream;
 mod text;
 mod visibility;
 
+pub use axis::{Axis, Tick};
 pub use canvas::png;
 pub use chart::{PlotSpec, plot_png, plot_svg};
 pub use convergence::{Total, convergence};

@@ -83,7 +83,7 @@ impl Scale {
     }
 
     fn ticks(self, count: usize) -> Vec<Tick> {
-        let axis = |low, high, log| Axis::fit([].into_iter(), log, Some((low, high)), false);
+        let axis = |low, high, log| Axis::over((low, high), log);
         match self {
             Self::Linear(low, high) => axis(low, high, false),
             Self::Log(low, high) => axis(low, high, true),
@@ -169,7 +169,7 @@ pub fn map_pixels(spec: &MapSpec, width: u32, height: u32) -> Result<Vec<u8>, Er
 /// Where the picture is too small for its labels, or the values do not fill whole rows.
 pub fn map_png(spec: &MapSpec, width: u32, height: u32) -> Result<Vec<u8>, Error> {
     let rows = rows(spec)?;
-    let axes = [spec.x, spec.y].map(|range| Axis::fit([].into_iter(), false, Some(range), false));
+    let axes = [spec.x, spec.y].map(|range| Axis::over(range, false));
     let [Some(x_axis), Some(y_axis)] = axes else {
         return Err(Error::Plot("an axis of the map has no range".to_owned()));
     };

@@ -6,6 +6,7 @@ use ratatui::layout::Rect;
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::Widget as _;
+use renders::Axis;
 use tutor::prose::PlotView;
 use unicode_width::UnicodeWidthStr as _;
 
@@ -48,31 +49,25 @@ pub fn draw(plot: &PlotView, palette: Palette, area: Rect, buffer: &mut Buffer) 
     Line::styled(plot.title.clone(), palette.title()).render(row(area.y), buffer);
 
     let chart_rows = area.height - below - 2;
-    let y = Scale::of(
-        plot.y_range,
-        plot.y_log,
-        plot.y_label.contains("degrees"),
-        usize::from(chart_rows / 3),
-    );
-    let gutter = y
-        .ticks
-        .iter()
-        .map(|(_, label)| label.width())
-        .max()
-        .unwrap_or(1) as u16;
+    let most = |cells: u16, each: u16| usize::from(cells / each).clamp(2, 8);
+    let most_y = most(chart_rows, 3);
+    let Some(y) = axis(plot.y_range, plot.y_log, most_y) else {
+        return;
+    };
+    let y_numbers = numbers(&y, most_y);
+    let widths = y_numbers.iter().map(|(_, label)| label.width());
+    let gutter = widths.max().unwrap_or(1) as u16;
     let chart = Rect {
         x: area.x + gutter + 1,
         y: area.y + 2,
         width: area.width - gutter - 2,
         height: chart_rows,
     };
-    let x = Scale::of(
-        plot.x_range,
-        plot.x_log,
-        plot.x_label.contains("degrees"),
-        usize::from(chart.width / 10),
-    );
-    draw_axes(&x, &y, palette, chart, buffer);
+    let most_x = most(chart.width, 10);
+    let Some(x) = axis(plot.x_range, plot.x_log, most_x) else {
+        return;
+    };
+    draw_axes(&numbers(&x, most_x), &y_numbers, palette, chart, buffer);
     let named = |label: &str, log: bool| format!("{label}{}", if log { " (log)" } else { "" });
     let y_label = Line::styled(named(&plot.y_label, plot.y_log), palette.quiet());
     y_label.render(row(area.y + 1), buffer);
@@ -83,7 +78,7 @@ pub fn draw(plot: &PlotView, palette: Palette, area: Rect, buffer: &mut Buffer) 
 
     draw_curves(plot, palette, (&x, &y), chart, buffer);
     for (_, at, value) in &plot.marks {
-        if let (Some(at), Some(value)) = (x.share(*at), y.share(*value)) {
+        if let (Some(at), Some(value)) = (share(&x, *at), share(&y, *value)) {
             let (column, row) = cell_of(chart, at, value);
             buffer.set_string(column, row, "◆", palette.key());
         }
@@ -165,12 +160,12 @@ impl Dots {
 fn draw_curves(
     plot: &PlotView,
     palette: Palette,
-    (x, y): (&Scale, &Scale),
+    (x, y): (&Axis, &Axis),
     chart: Rect,
     buffer: &mut Buffer,
 ) {
     let mut dots = Dots::new(chart);
-    let place = |(at, value): &(f64, f64)| Some((x.share(*at)?, y.share(*value)?));
+    let place = |(at, value): &(f64, f64)| Some((share(x, *at)?, share(y, *value)?));
     for (index, (_, points)) in plot.series.iter().enumerate() {
         let places: Vec<_> = points.iter().map(place).collect();
         dots.curve(&places, index);
@@ -206,7 +201,13 @@ fn cell_of(chart: Rect, x: f64, y: f64) -> (u16, u16) {
 }
 
 /// The two axes, their ticks and numbers, around the chart.
-fn draw_axes(x: &Scale, y: &Scale, palette: Palette, chart: Rect, buffer: &mut Buffer) {
+fn draw_axes(
+    x: &[(f64, String)],
+    y: &[(f64, String)],
+    palette: Palette,
+    chart: Rect,
+    buffer: &mut Buffer,
+) {
     let style = palette.quiet();
     for row in chart.y..chart.bottom() {
         buffer.set_string(chart.x - 1, row, "│", style);
@@ -217,13 +218,13 @@ fn draw_axes(x: &Scale, y: &Scale, palette: Palette, chart: Rect, buffer: &mut B
         format!("└{}", "─".repeat(chart.width as usize)),
         style,
     );
-    for (share, label) in &y.ticks {
+    for (share, label) in y {
         let row = chart.y + ((1.0 - share) * f64::from(chart.height - 1)).round() as u16;
         buffer.set_string(chart.x - 1, row, "┤", style);
         buffer.set_string(chart.x - 1 - label.width() as u16, row, label, style);
     }
     let mut free_from = 0;
-    for (share, label) in &x.ticks {
+    for (share, label) in x {
         let column = chart.x + (share * f64::from(chart.width - 1)).round() as u16;
         buffer.set_string(column, chart.bottom(), "┴", style);
         let width = label.width() as u16;
@@ -265,112 +266,25 @@ fn legend(plot: &PlotView, width: usize, palette: Option<Palette>) -> Vec<Line<'
     lines
 }
 
-/// An axis: where it begins and ends, in its own measure, and its numbers with their places.
-struct Scale {
-    log: bool,
-    from: f64,
-    to: f64,
-    ticks: Vec<(f64, String)>,
+/// An axis with at most so many numbers, which reaches those that are near its ends; a linear one
+/// where a logarithmic one cannot be.
+fn axis(range: (f64, f64), log: bool, most: usize) -> Option<Axis> {
+    let axis = Axis::over(range, log).or_else(|| Axis::over(range, false));
+    axis.map(|axis| axis.to_ticks(most))
 }
 
-impl Scale {
-    fn of((from, to): (f64, f64), log: bool, degrees: bool, most_ticks: usize) -> Self {
-        let most = most_ticks.clamp(2, 8);
-        if log && from > 0.0 && to > from {
-            Self::log(from, to, most)
-        } else {
-            Self::linear(from, to, degrees, most)
-        }
-    }
-
-    /// Whole decades, or every second or third where there are many; 2 and 5 where there is
-    /// hardly a decade.
-    fn log(from: f64, to: f64, most: usize) -> Self {
-        let (low, high) = (from.log10(), to.log10());
-        let (first, last) = (low.floor() as i32, high.ceil() as i32);
-        let stride = ((high - low) as usize / most.max(1)).max(1);
-        let within: &[f64] = if high - low < 2.0 {
-            &[1.0, 2.0, 5.0]
-        } else {
-            &[1.0]
-        };
-        let span = (high - low).max(f64::MIN_POSITIVE);
-        let decades = (first..=last)
-            .step_by(stride)
-            .flat_map(|power| within.iter().map(move |step| step * 10f64.powi(power)));
-        let ticks = doublings(from, to, most).unwrap_or_else(|| decades.collect());
-        let ticks = ticks
-            .into_iter()
-            .map(|value| ((value.log10() - low) / span, short(value)))
-            .filter(|(share, _)| (-1e-9..=1.0 + 1e-9).contains(share))
-            .collect();
-        Self {
-            log: true,
-            from: low,
-            to: high,
-            ticks,
-        }
-    }
-
-    /// Round numbers within the range; parts of a right angle where degrees are meant.
-    fn linear(from: f64, to: f64, degrees: bool, most: usize) -> Self {
-        let to = if to > from { to } else { from + 1.0 };
-        let span = to - from;
-        let rough = span / most as f64;
-        let power = 10f64.powf(rough.log10().floor());
-        let enough = |step: &f64| *step >= rough * 0.999;
-        let angle = [5.0, 10.0, 15.0, 30.0, 45.0, 90.0].into_iter().find(enough);
-        let step = [1.0, 2.0, 2.5, 5.0]
-            .map(|factor| factor * power)
-            .into_iter()
-            .find(enough)
-            .unwrap_or(10.0 * power);
-        let step = angle.filter(|_| degrees && rough > 2.0).unwrap_or(step);
-        // A tick that lies just beyond an end becomes the end.
-        let near = |end: f64, tick: f64| match (end - tick).abs() < 0.025 * span {
-            true => tick,
-            false => end,
-        };
-        let from = near(from, (from / step).floor() * step);
-        let to = near(to, (to / step).ceil() * step);
-        let span = to - from;
-        let first = (from / step - 1e-9).ceil() as i64;
-        let last = (to / step + 1e-9).floor() as i64;
-        let ticks = (first..=last.min(first + 20))
-            .map(|index| index as f64 * step)
-            .map(|value| ((value - from) / span, short(value)))
-            .collect();
-        Self {
-            log: false,
-            from,
-            to,
-            ticks,
-        }
-    }
-
-    /// How far along the axis a value is, from 0 to 1.
-    fn share(&self, value: f64) -> Option<f64> {
-        if self.log && value <= 0.0 {
-            return None;
-        }
-        let place = if self.log { value.log10() } else { value };
-        let share = (place - self.from) / (self.to - self.from);
-        (-1e-9..=1.0 + 1e-9)
-            .contains(&share)
-            .then(|| share.clamp(0.0, 1.0))
-    }
+/// The numbers of an axis, and how far along it each stands, from 0 to 1.
+fn numbers(axis: &Axis, most: usize) -> Vec<(f64, String)> {
+    let ticks = axis.ticks(most).into_iter();
+    let labelled = ticks.filter(|tick| !tick.label.is_empty());
+    labelled
+        .map(|tick| (axis.share(tick.at), tick.label))
+        .collect()
 }
 
-/// Powers of two, where both ends are: such are the sizes of pictures.
-fn doublings(from: f64, to: f64, most: usize) -> Option<Vec<f64>> {
-    let power = |end: f64| {
-        let exponent = end.log2().round();
-        (exponent.exp2() == end && (1.0..=20.0).contains(&exponent)).then_some(exponent as i32)
-    };
-    let (first, last) = (power(from)?, power(to)?);
-    let every = (last.abs_diff(first) as usize).div_ceil(most).max(1);
-    let powers = (first..=last).step_by(every);
-    Some(powers.map(|power| f64::from(power).exp2()).collect())
+/// How far along an axis a value stands, where it does.
+fn share(axis: &Axis, value: f64) -> Option<f64> {
+    axis.holds(value).then(|| axis.share(value).clamp(0.0, 1.0))
 }
 
 #[cfg(test)]
@@ -378,54 +292,24 @@ mod tests {
     use super::*;
 
     #[track_caller]
-    fn check(range: (f64, f64), log: bool, most: usize, ticks: &[&str]) {
-        check_scale(&Scale::of(range, log, false, most), ticks);
-    }
-
-    #[track_caller]
-    fn check_scale(scale: &Scale, ticks: &[&str]) {
-        let labels: Vec<&str> = scale
-            .ticks
-            .iter()
-            .map(|(_, label)| label.as_str())
-            .collect();
-        assert_eq!(labels, ticks);
+    fn check(range: (f64, f64), log: bool, most: usize, expected: &[&str]) {
+        let axis = axis(range, log, most).expect("a range");
+        let numbers = numbers(&axis, most);
+        let labels: Vec<&str> = numbers.iter().map(|(_, label)| label.as_str()).collect();
+        assert_eq!(labels, expected);
     }
 
     #[test]
     fn axes_have_round_numbers() {
-        check((0.1, 1.0), false, 5, &["0.2", "0.4", "0.6", "0.8", "1"]);
-        check(
-            (0.02, 0.98),
-            false,
-            5,
-            &["0", "0.2", "0.4", "0.6", "0.8", "1"],
-        );
-        check((32.0, 512.0), true, 8, &["32", "64", "128", "256", "512"]);
-        check((32.0, 512.0), true, 3, &["32", "128", "512"]);
+        let tenths = &["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"];
+        check((0.1, 1.0), false, 5, &tenths[1..]);
+        check((0.02, 0.98), false, 5, tenths);
         check((0.0, 12.43), false, 4, &["0", "5", "10"]);
-        check(
-            (-60.0, 90.0),
-            false,
-            6,
-            &["-50", "-25", "0", "25", "50", "75"],
-        );
         check((0.3, 4.0), true, 4, &["0.5", "1", "2"]);
-        check(
-            (0.01, 1000.0),
-            true,
-            6,
-            &["0.01", "0.1", "1", "10", "100", "1000"],
-        );
-        check((1.0, 1.0), false, 4, &["1", "1.25", "1.5", "1.75", "2"]);
-    }
-
-    #[test]
-    fn degrees_are_parts_of_a_right_angle() {
-        let degrees = |to: f64, most: usize| Scale::of((0.0, to), false, true, most);
-        check_scale(&degrees(90.0, 2), &["0", "45", "90"]);
-        check_scale(&degrees(90.0, 5), &["0", "30", "60", "90"]);
-        check_scale(&degrees(4.0, 4), &["0", "1", "2", "3", "4"]);
+        check((32.0, 512.0), true, 3, &["32", "128", "512"]);
+        check((0.0, 90.0), false, 5, &["0", "30", "60", "90"]);
+        // What no logarithm is of stands on a linear axis.
+        check((0.0, 1.0), true, 5, tenths);
     }
 
     #[test]
@@ -444,9 +328,9 @@ mod tests {
 
     #[test]
     fn a_value_stands_where_its_number_says() {
-        let scale = Scale::of((0.01, 100.0), true, false, 6);
-        assert_eq!(scale.share(1.0), Some(0.5));
-        assert_eq!(scale.share(0.0), None);
-        assert_eq!(scale.share(1000.0), None);
+        let axis = axis((0.01, 100.0), true, 6).expect("a range");
+        assert!(share(&axis, 1.0).is_some_and(|share| (share - 0.5).abs() < 1e-12));
+        assert_eq!(share(&axis, 0.0), None);
+        assert_eq!(share(&axis, 1000.0), None);
     }
 }
