@@ -41,8 +41,11 @@ fn every_size_is_drawn() {
     for size in [(200, 60), (80, 24), (40, 12), (20, 5), (1, 1)] {
         let home = tempfile::tempdir().expect("a folder");
         let mut terminal = learn(home.path(), size);
-        if size.0 >= 40 {
+        if size.0 >= 80 {
             terminal.wait_for("Smith G2");
+        } else if size.0 >= 40 {
+            // No row is spared for a title.
+            terminal.wait_for("Why this matters");
         } else if size.0 >= 20 {
             terminal.wait_for("lobe needs");
         }
@@ -381,4 +384,68 @@ fn a_number_half_typed_survives_a_power_cut() {
     terminal.wait_for("0.4^2/2");
     terminal.send("\u{3}");
     assert_eq!(terminal.wait(), 0);
+}
+
+#[test]
+fn a_low_terminal_shows_what_is_asked_and_where_it_is_answered() {
+    // A choice, a number, a shader, a place, an explanation.
+    for (skips, asked, field) in [
+        (3, "lines is wrong", "┏ Which one?"),
+        (4, "How large is the G2", "┏ G2 "),
+        (6, "This came over", "┏ fn specular"),
+        (13, "A rough metal ball", "┏ The buggy ball"),
+        (14, "let specular", "┏ In your own words"),
+    ] {
+        let home = tempfile::tempdir().expect("a folder");
+        let folder = home.path().join("p").display().to_string();
+        let args = [
+            "learn",
+            "smith-g2",
+            "--plain",
+            "--seed",
+            "7",
+            "--progress",
+            &folder,
+        ];
+        common::run_with(home.path(), &args, &":skip\n".repeat(skips));
+        let mut terminal = learn(home.path(), (40, 12));
+        terminal.wait_until("question and field", |screen| {
+            screen.contains(asked) && screen.contains(field) && screen.contains('┗')
+        });
+        // Out of the field the page gets the rows.
+        terminal.send("\u{1b}");
+        terminal.wait_until("more of the page", |screen| {
+            let rows = screen.lines().skip(1);
+            rows.take_while(|row| !row.contains('╭')).count() >= 4 && screen.contains('╭')
+        });
+        terminal.send("\u{3}");
+        assert_eq!(terminal.wait(), 0);
+    }
+}
+
+#[test]
+fn the_mark_under_a_shaders_error_is_in_view() {
+    for size in [(80, 24), (40, 12)] {
+        let home = tempfile::tempdir().expect("a folder");
+        let folder = home.path().join("p").display().to_string();
+        let args = [
+            "learn",
+            "smith-g2",
+            "--plain",
+            "--seed",
+            "7",
+            "--progress",
+            &folder,
+        ];
+        common::run_with(home.path(), &args, &":skip\n".repeat(6));
+        let mut terminal = learn(home.path(), size);
+        terminal.wait_for("┏ fn specular");
+        // A word too many behind the seventh line.
+        terminal.send("\u{1b}[B\u{1b}[B\u{1b}[B\u{1b}[B\u{1b}[B\u{1b}[B\u{5}x y\u{13}");
+        terminal.wait_until("the error and its mark", |screen| {
+            screen.contains("Line 7") && screen.lines().any(|row| row.trim() == "^")
+        });
+        terminal.send("\u{3}");
+        assert_eq!(terminal.wait(), 0);
+    }
 }

@@ -20,6 +20,9 @@ const DRAFT_AFTER: Duration = Duration::from_millis(600);
 /// How fast the sign turns while something is waited for.
 const SPINNING: Duration = Duration::from_millis(120);
 
+/// Said of a lesson that was begun before.
+pub const GOING_ON: &str = "Going on where you left.";
+
 /// Rows of a page that are too few for a picture and a text below it.
 const LOW: usize = 20;
 
@@ -81,7 +84,7 @@ impl LessonScreen {
             .map(|notice| notice.says.clone())
             .collect();
         if sitting.resumed && greeting.is_empty() {
-            greeting.push("Going on where you left.".into());
+            greeting.push(GOING_ON.into());
         }
         Self {
             focus: field.focus(),
@@ -517,7 +520,34 @@ impl LessonScreen {
             }
             // What is new is in view; what was read may scroll away.
             self.follow = (!other_screen).then(|| self.page.start_of(before.blocks.len()));
+            if !other_screen && matches!(self.field, Field::Code(_)) {
+                self.follow_complaint(before.blocks.len());
+            }
             self.scroll = self.follow.unwrap_or(0).min(self.last_scroll());
+        }
+    }
+}
+
+impl LessonScreen {
+    /// What was said of a shader is seen with the place it is about, even where there is no room
+    /// for all that is new; where there is none for that, the field makes room.
+    fn follow_complaint(&mut self, first: usize) {
+        let blocks = &self.shown.blocks;
+        let said = blocks
+            .iter()
+            .rposition(|block| matches!(block, Block::Verdict { .. }))
+            .filter(|said| *said >= first);
+        let (Some(new), Some(said)) = (self.follow, said) else {
+            return;
+        };
+        let end = self.page.height();
+        if end - new <= self.window {
+            return;
+        }
+        let said = self.page.start_of(said);
+        self.follow = Some(said);
+        if end - said > self.window {
+            self.focus = Focus::Page;
         }
     }
 }

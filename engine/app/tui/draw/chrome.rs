@@ -53,3 +53,18 @@ pub fn rule(frame: &mut Frame, area: Rect, palette: Palette) {
         area,
     );
 }
+
+/// The beginning of a text that fits into `width` columns.
+pub fn cut(text: &str, width: usize) -> String {
+    if text.width() <= width {
+        return text.to_owned();
+    }
+    let mut short = String::new();
+    for letter in text.chars() {
+        if short.width() + 2 > width {
+            break;
+        }
+        short.push(letter);
+    }
+    short + "…"
+}

@@ -7,6 +7,9 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, BorderType};
 use tutor::view::Input;
 
+use unicode_width::UnicodeWidthStr as _;
+
+use super::chrome::cut;
 use super::style::Palette;
 use crate::text;
 use crate::tui::ball::Ball;
@@ -17,27 +20,42 @@ use crate::tui::lesson::LessonScreen;
 /// Fields are as wide as prose is.
 const WIDEST: u16 = 96;
 
+/// Rows for page and field together that are too few for both to be seen whole.
+pub const LOW: u16 = 16;
+
 /// Rows that the field wants of `room`.
 pub fn height(screen: &LessonScreen, width: u16, room: u16) -> u16 {
     let inner = width.min(WIDEST).saturating_sub(6) as usize;
+    let low = room < LOW;
+    // Who has left the field wants to read.
+    let reads = screen.focus == Focus::Page;
     let rows = match (&screen.view().input, &screen.field) {
         (Input::None, _) | (_, Field::None) => return 0,
         (Input::Number { .. }, _) => 1,
-        (Input::Reply { .. }, _) => 3,
+        (Input::Reply { .. }, _) => match (low, reads) {
+            (false, _) => 3,
+            (true, false) => 2,
+            (true, true) => 1,
+        },
         // Large enough to see what one writes, small enough to see what one answers.
-        (Input::Text { .. }, _) => (room / 3).clamp(4, 14),
+        (Input::Text { .. }, _) => match (low, reads) {
+            (false, _) => (room / 3).clamp(4, 14),
+            (true, false) => 3,
+            (true, true) => 1,
+        },
         // The function as a whole, where the page leaves room for it.
         (Input::Code { .. }, field) => {
             let lines = field
                 .text()
                 .map_or(1, |text| text.split('\n').count() as u16);
-            // Who has left the field of a low window wants to read.
-            let most = match screen.focus {
-                Focus::Page if room < 40 => 3,
+            let most = match reads {
+                true if low => 1,
+                true if room < 40 => 3,
                 _ => (room * 2 / 3).max(4),
             };
-            lines.clamp(3, most)
+            lines.clamp(most.min(3), most)
         }
+        (Input::Place { .. }, _) if low && reads => 3,
         (Input::Place { .. }, _) => Ball::rows(room),
         (Input::Choice { options }, _) => wrapped_rows(options.iter().map(String::as_str), inner),
         (Input::Order { items }, _) => wrapped_rows(items.iter().map(String::as_str), inner),
@@ -45,7 +63,15 @@ pub fn height(screen: &LessonScreen, width: u16, room: u16) -> u16 {
             wrapped_rows(points.iter().map(|point| point.text.as_str()), inner)
         }
     };
-    (rows + 2).min(room.saturating_sub(2))
+    let most = match &screen.field {
+        // What is asked stays in view above what it is chosen from.
+        Field::Choice { .. } | Field::Order(_) | Field::Checklist { .. } if low => match reads {
+            true => 3,
+            false => room.saturating_sub(4),
+        },
+        _ => room.saturating_sub(2),
+    };
+    (rows + 2).min(most)
 }
 
 fn wrapped_rows<'a>(items: impl Iterator<Item = &'a str>, width: usize) -> u16 {
@@ -95,15 +121,23 @@ pub fn draw(frame: &mut Frame, area: Rect, screen: &LessonScreen, palette: Palet
             BorderType::Rounded
         })
         .border_style(palette.frame(focused))
-        .title(Line::styled(format!(" {label} "), palette.title()));
+        .title(Line::styled(
+            format!(" {} ", cut(&label, area.width.saturating_sub(4).into())),
+            palette.title(),
+        ));
+    let button = match &screen.field {
+        Field::Code(_) => " [ Run: Ctrl-S ] ",
+        Field::Editor(_) => " [ Hand in: Ctrl-S ] ",
+        _ => "",
+    };
+    let note = cut(
+        &note,
+        (area.width as usize).saturating_sub(4 + button.width()),
+    );
     if !note.is_empty() {
         frame_block = frame_block.title_bottom(Line::styled(format!(" {note} "), palette.quiet()));
     }
-    if let Field::Editor(_) | Field::Code(_) = screen.field {
-        let button = match screen.field {
-            Field::Code(_) => " [ Run: Ctrl-S ] ",
-            _ => " [ Hand in: Ctrl-S ] ",
-        };
+    if !button.is_empty() {
         let style = if screen.focus == Focus::Button {
             palette.selected()
         } else {

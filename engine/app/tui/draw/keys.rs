@@ -149,7 +149,8 @@ fn hint(view: &View) -> &'static str {
 
 fn skip(view: &View, width: u16) -> &str {
     match view.skip_label.as_str() {
-        label if width >= ROOMY && !label.is_empty() => label,
-        _ => "skip",
+        "" => "skip",
+        label if width < ROOMY && label.starts_with("skip ") => "skip",
+        label => label,
     }
 }

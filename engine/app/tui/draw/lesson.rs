@@ -5,21 +5,24 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use tutor::prose::Tone;
 use tutor::view::{Progress, Saving, View};
-use unicode_width::UnicodeWidthStr as _;
 
-use super::chrome::{at_right, footer, rule};
+use super::chrome::{at_right, cut, footer, rule};
 use super::input;
 use super::keys::keys;
 use super::style::Palette;
 use crate::text;
 use crate::tui::keys::Focus;
-use crate::tui::lesson::LessonScreen;
+use crate::tui::lesson::{GOING_ON, LessonScreen};
 use crate::tui::pictures::Pictures;
 
 /// From here on the stages stand in a column of their own.
 const SIDEBAR_FROM: u16 = 126;
 const SIDEBAR: u16 = 24;
 const HEADER: u16 = 3;
+/// A screen with fewer rows has no row to spare for title and rule.
+const LOW: u16 = 18;
+/// A screen with fewer columns has none to spare in the footer.
+const NARROW: u16 = 60;
 
 /// Where everything goes.
 pub struct Areas {
@@ -34,7 +37,7 @@ pub struct Areas {
 impl Areas {
     pub fn new(screen: &LessonScreen, whole: Rect) -> Self {
         let header = Rect {
-            height: HEADER.min(whole.height),
+            height: if whole.height < LOW { 1 } else { HEADER },
             ..whole
         };
         let footer = Rect {
@@ -69,7 +72,8 @@ impl Areas {
             ..body
         };
         let input_height = input::height(screen, body.width, body.height);
-        let note_height = (notes(screen, body.width as usize).len() as u16).min(body.height / 2);
+        let notes = notes(screen, body.width as usize, header.height == 1);
+        let note_height = (notes.len() as u16).min(body.height / 2);
         let room = body.height.saturating_sub(input_height + note_height);
         // The field stands right below a short page, where the eye is.
         let page_height = room.min(screen.page.height() as u16 + 1);
@@ -112,10 +116,8 @@ pub fn draw(frame: &mut Frame, screen: &LessonScreen, pictures: &Pictures, palet
         areas.page,
         frame.buffer_mut(),
     );
-    for (row, (tone, line)) in notes(screen, areas.note.width as usize)
-        .into_iter()
-        .enumerate()
-    {
+    let notes = notes(screen, areas.note.width as usize, areas.header.height == 1);
+    for (row, (tone, line)) in notes.into_iter().enumerate() {
         if row < areas.note.height as usize {
             let at = Rect {
                 y: areas.note.y + row as u16,
@@ -126,8 +128,11 @@ pub fn draw(frame: &mut Frame, screen: &LessonScreen, pictures: &Pictures, palet
         }
     }
     input::draw(frame, areas.input, screen, palette);
+    let narrow = areas.footer.width < NARROW;
     let right = match (screen.has_more_below(), screen.scroll > 0) {
+        (true, _) if narrow => "▼",
         (true, _) => "▼ more below",
+        (false, true) if narrow => "▲",
         (false, true) => "▲ more above",
         (false, false) => "",
     };
@@ -152,8 +157,10 @@ fn header(frame: &mut Frame, area: Rect, view: &View, with_stages: bool, palette
         &view.lesson_title,
         (area.width as usize).saturating_sub(saved.width() + 3),
     );
-    frame.render_widget(Line::styled(format!(" {title}"), palette.title()), row(0));
-    at_right(frame, row(0), saved);
+    let is_low = area.height == 1;
+    if !is_low {
+        frame.render_widget(Line::styled(format!(" {title}"), palette.title()), row(0));
+    }
 
     let mut line = Line::raw(" ");
     if with_stages {
@@ -170,11 +177,17 @@ fn header(frame: &mut Frame, area: Rect, view: &View, with_stages: bool, palette
     }
     if !view.heading.is_empty() && view.heading != view.stage.title() {
         line.push_span(Span::styled(" · ", palette.quiet()));
-        let room = (area.width as usize).saturating_sub(line.width() + 1);
+        let beside = if is_low { saved.width() + 1 } else { 0 };
+        let room = (area.width as usize).saturating_sub(line.width() + 1 + beside);
         line.push_span(Span::styled(cut(&view.heading, room), palette.heading()));
     }
-    frame.render_widget(line, row(1));
-    rule(frame, row(2), palette);
+    if !is_low {
+        frame.render_widget(line, row(1));
+        rule(frame, row(2), palette);
+    } else {
+        frame.render_widget(line, row(0));
+    }
+    at_right(frame, row(0), saved);
 }
 
 fn sign(progress: Progress, palette: Palette) -> (&'static str, ratatui::style::Style) {
@@ -234,7 +247,7 @@ fn sidebar(frame: &mut Frame, area: Rect, view: &View, palette: Palette) {
 }
 
 /// Lines between page and field: what was said about the last key, what cannot be saved.
-fn notes(screen: &LessonScreen, width: usize) -> Vec<(Tone, String)> {
+fn notes(screen: &LessonScreen, width: usize, is_low: bool) -> Vec<(Tone, String)> {
     let mut notes: Vec<(Tone, String)> = Vec::new();
     if let Some((sign, what)) = screen.waiting() {
         notes.push((Tone::Info, format!("{sign} {what} …")));
@@ -244,6 +257,10 @@ fn notes(screen: &LessonScreen, width: usize) -> Vec<(Tone, String)> {
         notes.extend(lines.into_iter().map(|line| (tone, line)));
     };
     for line in &screen.greeting {
+        // Where rows are few, that one is seen anyhow.
+        if is_low && line == GOING_ON {
+            continue;
+        }
         say(Tone::Info, line);
     }
     if let Some(offer) = &screen.offer {
@@ -275,19 +292,4 @@ fn notes(screen: &LessonScreen, width: usize) -> Vec<(Tone, String)> {
         );
     }
     notes
-}
-
-/// The beginning of a text that fits into `width` columns.
-fn cut(text: &str, width: usize) -> String {
-    if text.width() <= width {
-        return text.to_owned();
-    }
-    let mut short = String::new();
-    for letter in text.chars() {
-        if short.width() + 2 > width {
-            break;
-        }
-        short.push(letter);
-    }
-    short + "…"
 }

@@ -449,8 +449,8 @@ fn prose(block: &Block, width: usize, palette: Palette) -> Vec<Line<'static>> {
                 )
             })
             .collect(),
-        Block::CodeBlock(code) => code
-            .lines()
+        Block::CodeBlock(code) => around_mark(code, width.saturating_sub(2))
+            .into_iter()
             .map(|line| Line::styled(format!("  {line}"), palette.role(Role::Code)))
             .collect(),
         Block::Quote(inlines) => {
@@ -543,6 +543,27 @@ fn prose(block: &Block, width: usize, palette: Palette) -> Vec<Line<'static>> {
     }
 }
 
+/// Lines of code; where one of them marks a place with `^` that lies beyond `width`, the part of
+/// all of them in which it lies.
+fn around_mark(code: &str, width: usize) -> Vec<String> {
+    /// Columns seen behind the mark.
+    const BEHIND: usize = 6;
+    let mark = code.lines().find(|line| line.trim() == "^");
+    let column = mark.map_or(0, |line| line.trim_end().chars().count());
+    if column <= width {
+        return code.lines().map(str::to_owned).collect();
+    }
+    let hidden = (column + BEHIND).saturating_sub(width) + 1;
+    let part = |line: &str| {
+        let rest: String = line.chars().skip(hidden).collect();
+        match line.trim() {
+            "^" | "" => format!(" {rest}"),
+            _ => format!("…{rest}"),
+        }
+    };
+    code.lines().map(part).collect()
+}
+
 fn paragraph(inlines: &[Inline], width: usize, palette: Palette) -> Vec<Line<'static>> {
     text::wrap(&text::pieces(inlines), width)
         .into_iter()
@@ -572,4 +593,30 @@ fn hanging(
             Line::from(spans)
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::around_mark;
+
+    #[track_caller]
+    fn check(code: &str, width: usize, lines: &[&str]) {
+        assert_eq!(around_mark(code, width), lines);
+    }
+
+    #[test]
+    fn a_mark_beyond_the_edge_is_brought_into_view() {
+        check(
+            "let x = y z;\n          ^",
+            12,
+            &["let x = y z;", "          ^"],
+        );
+        check(
+            "let x = y z;\n          ^",
+            11,
+            &["let x = y z;", "          ^"],
+        );
+        check("let x = y z;\n          ^", 10, &["…y z;", "   ^"]);
+        check("no mark in this line", 4, &["no mark in this line"]);
+    }
 }
