@@ -171,11 +171,11 @@ impl Explanation {
         self.self_marked.as_deref().unwrap_or(&self.stands)
     }
 
-    /// Answer and replies as one text.
+    /// Answer and replies as one text, a paragraph each: no sentence runs from one into another.
     pub fn whole(&self) -> String {
         let mut whole = self.text.clone();
         for (_, reply) in &self.replies {
-            whole.push('\n');
+            whole.push_str("\n\n");
             whole.push_str(reply);
         }
         whole
@@ -325,7 +325,7 @@ mod tests {
             replied(item, "The rim is bright.", "pass"),
         ]));
         assert_eq!(all.len(), 1);
-        assert_eq!(all[0].whole(), "No idea.\nThe rim is bright.");
+        assert_eq!(all[0].whole(), "No idea.\n\nThe rim is bright.");
         assert_eq!((all[0].verdict.as_str(), all[0].told()), ("unsure", "pass"));
     }
 

@@ -132,6 +132,21 @@ fn says_where_a_phrase_comes_from_and_what_it_gains() {
 }
 
 #[test]
+fn no_phrase_spans_an_answer_and_the_reply_to_it() {
+    let marks = [
+        mark("1", "A", "No idea\nthe rim glorps", true),
+        mark("2", "B", "Hard to say\nthe rim glorps a lot", true),
+        mark("3", "C", "At the edge it glorps.", true),
+        mark("4", "D", "The middle glorps.", false),
+    ];
+    let learned = learn(&sky(), &marks);
+    assert!(!learned.proposals.is_empty());
+    for proposal in &learned.proposals {
+        assert!(!proposal.words.contains('\n'), "{proposal:?}");
+    }
+}
+
+#[test]
 fn words_that_only_one_writer_uses_are_not_proposed() {
     let marks = [
         mark("1", "A", "The rim glorps.", true),

@@ -164,7 +164,9 @@ impl Reading {
 
     /// What stands on the other side of "than".
     fn compared(&self, list: &[Mention], next: usize, found: &Match) -> Option<Mention> {
-        let than = (found.end..(found.end + 5).min(self.tokens.len()))
+        // "Outshines the highlight" compares by itself.
+        let from = found.end - usize::from(self.tokens[found.end - 1].word.starts_with("outsh"));
+        let than = (from..(found.end + 5).min(self.tokens.len()))
             .find(|&i| grammar::compares(&self.tokens, i))?;
         let other = list.get(next..)?.iter().find(|m| {
             m.start > than
@@ -223,7 +225,8 @@ impl Reading {
                 .is_none_or(|m| m.start < first)
             && let Some(m) = list[..next.min(list.len())].last().filter(|m| {
                 m.end + 2 >= first
-                    && (m.class == PLACE && m.end + 1 >= first && self.tokens[first].is("which")
+                    && (m.class == PLACE
+                        && (m.end == first || m.end + 1 == first && self.tokens[first].is("which"))
                         || m.class == QUANTITY
                             && (m.end..first).len() <= 2
                             && (m.end..first).all(|i| {

@@ -160,7 +160,7 @@ impl Reading {
             if first && matches!(token.kind, Kind::Word | Kind::Value) {
                 asks = grammar::asks(&token.word);
                 let next = self.tokens.get(at + 1).map(|t| t.word.as_str());
-                let hedged = self.hedges(at);
+                let hedged = self.hedges(at) || self.owns(at);
                 asked[self.sentence[at]] =
                     !hedged && next.is_some_and(|n| grammar::inverts(&token.word, n));
                 asks &= !hedged;
@@ -231,6 +231,20 @@ impl Reading {
             || matches!(word(first + 1), "it" | "that" | "this")
                 && word(first) == "is"
                 && (shy(first + 2) || word(first + 2) == "that")
+    }
+
+    /// "Is it the roughness? That would be my answer.": it is.
+    fn owns(&self, first: usize) -> bool {
+        let next = self
+            .sentence
+            .partition_point(|&s| s <= self.sentence[first]);
+        [
+            ["that", "would", "be", "my"],
+            ["that", "is", "my", "answer"],
+            ["that", "is", "my", "guess"],
+        ]
+        .iter()
+        .any(|words| starts_with(&self.tokens, next, words))
     }
 
     /// For each token, whether it stands behind "I wonder whether".

@@ -9,6 +9,9 @@ use super::{Criterion, Finding, matching};
 /// From here on a phrase is said in so many words.
 const CLEAR: f64 = 0.97;
 
+/// What no phrase says has to weigh that much by itself before a pass is built on it.
+const PLAIN: f64 = 2.5;
+
 impl Criterion {
     pub fn find(&self, reading: &Reading, understood: u128, deaf: &[(usize, usize)]) -> Finding {
         let ears = Ears {
@@ -78,9 +81,16 @@ impl Criterion {
         // What a phrase says in so many words is not taken for its contrary: it stays open.
         let clear = hit.as_ref().is_some_and(|hit| hit.score >= CLEAR);
         let (perhaps, stated) = self.bars(heard, clear);
-        let hit = hit.or_else(|| self.strongest(reading));
+        let (hit, plain) = match hit {
+            Some(hit) => (Some(hit), true),
+            None => {
+                let strongest = self.strongest(reading);
+                let plain = strongest.as_ref().is_some_and(|it| it.1 >= PLAIN);
+                (strongest.map(|it| it.0), plain || !self.required)
+            }
+        };
         match hit.map(|hit| Hit { score, ..hit }) {
-            Some(hit) if score >= stated => Finding::Stated(hit),
+            Some(hit) if score >= stated && plain => Finding::Stated(hit),
             Some(hit) if score >= perhaps => Finding::Perhaps(hit),
             _ => Finding::Absent,
         }
@@ -93,6 +103,7 @@ impl Criterion {
             (true, Heard::Not) if self.blocking => (0.35, 2.0),
             (true, Heard::Not) => (0.6, 0.8),
             (false, Heard::Not) if self.required => (0.4, 0.85),
+            (false, Heard::Half) if self.required => (0.4, 0.75),
             (true, Heard::Half) if self.blocking => (0.25, 0.6),
             (true, Heard::Said) if self.blocking => (0.2, 0.5),
             (true, _) => (0.4, 0.5),
@@ -101,15 +112,16 @@ impl Criterion {
         (if clear { 0.0 } else { perhaps }, stated)
     }
 
-    /// The words that speak most for it.
-    pub fn strongest(&self, reading: &Reading) -> Option<Hit> {
-        let at = self.weights.as_ref()?.strongest(&reading.features)?;
+    /// The words that speak most for it, and how much they do.
+    pub fn strongest(&self, reading: &Reading) -> Option<(Hit, f64)> {
+        let (at, weight) = self.weights.as_ref()?.strongest(&reading.features)?;
         let range = matching::quote(reading, &reading.statements[at]);
-        Some(Hit {
+        let hit = Hit {
             score: PERHAPS,
             range,
             own_words: false,
-        })
+        };
+        Some((hit, weight))
     }
 
     /// What follows from its phrases alone.

@@ -90,6 +90,13 @@ pub fn denials(
             if subject && !speech && report.is_some() && end > at + skip + 1 && word.spaced {
                 break;
             }
+            // "instead of the facet's H the border glows": and so does a noun.
+            let noun = matches!(word.word.as_str(), "the" | "his" | "its")
+                && !super::spelling::is_preposition(&tokens[end - 1].word)
+                && !matches!(tokens[end - 1].word.as_str(), "and" | "or" | "is" | "than");
+            if noun && !speech && report.is_some() && end > at + skip + 1 && inside[end - 1] {
+                break;
+            }
             // "not so bright", "not even close".
             let opens = end == at + skip && word.kind == Kind::Word && !word.is("but");
             if hard || (soft && !passed && !opens && !inside[end]) {

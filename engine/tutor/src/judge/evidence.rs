@@ -117,12 +117,15 @@ pub fn words(reading: &Reading) -> impl Iterator<Item = (&str, usize)> {
             return None;
         }
         let (from, to) = reading.of_clause[reading.clause[at]];
+        let here = &reading.statements[from..to];
+        let next = from + here.partition_point(|s| s.tokens.0 <= at);
         let distance = |index: &usize| {
             let (start, end) = reading.statements[*index].tokens;
             start.saturating_sub(at).max((at + 1).saturating_sub(end))
         };
         let claimed = |index: &usize| !reading.statements[*index].void;
-        let nearest = (from..to).filter(claimed).min_by_key(distance);
+        let near = from.max(next.saturating_sub(NEAR))..to.min(next + NEAR);
+        let nearest = near.filter(claimed).min_by_key(distance);
         // What is only reported, asked or taken back is not claimed by its words either.
         (from == to || nearest.is_some())
             .then(|| (reading.forms[at].stem.as_str(), nearest.unwrap_or(NOWHERE)))
@@ -149,6 +152,9 @@ fn is_filling(word: &str) -> bool {
             | "i"
     )
 }
+
+/// So many statements to either side of a word are looked at: no clause says much more.
+const NEAR: usize = 4;
 
 /// No statement.
 const NOWHERE: usize = usize::MAX;
@@ -344,9 +350,9 @@ impl Weights {
         (self.bias + sum).clamp(-9.0, 9.0)
     }
 
-    /// The statement that speaks most for the criterion; `None` where none says much: what only
+    /// The statement that speaks most for the criterion, and how much; `None` where none says much: what only
     /// goes along with it, as good answers say many things, is not said.
-    pub fn strongest(&self, features: &Features) -> Option<usize> {
+    pub fn strongest(&self, features: &Features) -> Option<(usize, f64)> {
         let mut by_statement: BTreeMap<usize, f64> = BTreeMap::new();
         for it in features.0.iter().filter(|it| it.statement != NOWHERE) {
             if let Some(weight) = self.of.get(&it.key) {
@@ -355,7 +361,6 @@ impl Weights {
         }
         let most = by_statement.into_iter().max_by(|a, b| a.1.total_cmp(&b.1));
         most.filter(|&(_, weight)| weight > TELLING)
-            .map(|(at, _)| at)
     }
 }
 

@@ -150,7 +150,14 @@ impl Reading {
             let is = (at + 1..to)
                 .take_while(|&i| self.sentence[i] == self.sentence[at])
                 .find(|&i| self.tokens[i].is("is"));
-            let how = |i: usize| self.tokens.get(i + 1).is_some_and(|t| t.is("how"));
+            let how = |i: usize| {
+                (i + 1..(i + 4).min(self.tokens.len())).any(|j| {
+                    matches!(
+                        self.tokens[j].word.as_str(),
+                        "how" | "diffuse" | "refracted" | "transmitted" | "transmission"
+                    )
+                })
+            };
             if let Some(end) = is.filter(|&i| how(i)) {
                 self.each_between(at, end, |s| s.void = true);
             }

@@ -44,7 +44,7 @@ use phrase::{Hit, Phrase, STATED};
 use text::Token;
 
 /// Changes whenever the same answer may get another verdict; kept in every log.
-pub const JUDGE_VERSION: &str = "7";
+pub const JUDGE_VERSION: &str = "8";
 
 /// What an answer is worth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -145,7 +145,7 @@ pub struct Judge {
 const ECHO: usize = 5;
 
 /// It is a pass only where it is at least so likely that all that it needs is as found.
-const SURE_OF_A_PASS: f64 = 0.7;
+const SURE_OF_A_PASS: f64 = 0.6;
 
 /// What was found on one criterion.
 #[derive(Clone, Debug, PartialEq)]
@@ -281,7 +281,7 @@ impl Judge {
         let (at, _) = least.filter(|_| sure < SURE_OF_A_PASS)?;
         let hit = match &findings[at] {
             Finding::Stated(hit) => hit.clone(),
-            _ => self.criteria[at].strongest(reading)?,
+            _ => self.criteria[at].strongest(reading)?.0,
         };
         Some((at, Finding::Perhaps(hit)))
     }

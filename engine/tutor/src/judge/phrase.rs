@@ -292,7 +292,12 @@ pub fn clauses_of(lexicon: &Lexicon, text: &str) -> Vec<String> {
     for group in [&reading.clause, &reading.sentence] {
         let mut start = 0;
         for at in 1..=group.len() {
-            if at < group.len() && group[at] == group[start] {
+            // An answer and the reply after it stand on lines of their own.
+            let same_line = |at: usize| {
+                let (before, here) = (reading.tokens[at - 1].end, reading.tokens[at].start);
+                !text.get(before..here).is_some_and(|gap| gap.contains('\n'))
+            };
+            if at < group.len() && group[at] == group[start] && same_line(at) {
                 continue;
             }
             let says = reading.heard[start..at].contains(&true);
