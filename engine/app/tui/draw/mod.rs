@@ -10,6 +10,7 @@ pub mod picker;
 pub mod picture;
 pub mod play;
 pub mod plot;
+pub mod prose;
 pub mod style;
 
 use ratatui::Frame;

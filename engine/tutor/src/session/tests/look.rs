@@ -3,41 +3,6 @@
 use super::*;
 use crate::exercise::look::{Sight, Spot};
 
-const LESSON: &str = r#"
-format = 1
-id = "lit"
-title = "Lit"
-summary = "A cosine."
-minutes = 1
-why = "Light."
-model = "A cosine."
-
-[[exercise]]
-id = "lit/where"
-kind = "look"
-ask = "Where would you look?"
-picture = "squared"
-shows = "darker"
-after = "At the terminator the cosine is small."
-hint = ["Where is the square of a number much smaller than the number?"]
-
-[[fingerprint]]
-id = "squared"
-title = "Squared"
-right = "n_dot_l"
-wrong = "n_dot_l^2"
-scene = { roughness = 0.5, f0 = 0.04, light_deg = 40 }
-shows = "Darker."
-"#;
-
-fn begin_lit() -> Session {
-    let (lesson, findings) = crate::load::load("lit.toml", LESSON);
-    let lesson = lesson.unwrap_or_else(|| panic!("{findings:#?}"));
-    let mut session = Session::new(Arc::new(lesson), Start::default());
-    walk_to(&mut session, "practice:lit/where");
-    session
-}
-
 fn sight(stops: f64) -> Sight {
     let spot = |stops: f64| Spot {
         x: 0.0,
@@ -80,7 +45,7 @@ fn result(events: &[Event]) -> &str {
 
 #[test]
 fn a_place_is_marked_by_what_is_seen_there() {
-    let mut session = begin_lit();
+    let mut session = begin_lit("practice:lit/where");
     assert!(matches!(
         &session.screen().input,
         Input::Place { picture, at: None } if picture == "squared"
@@ -105,7 +70,7 @@ fn a_place_is_marked_by_what_is_seen_there() {
 
 #[test]
 fn what_is_no_place_costs_nothing_and_looks_nowhere() {
-    let mut session = begin_lit();
+    let mut session = begin_lit("practice:lit/where");
     for typed in ["over there", "2 2", "0.3"] {
         let (looked, saved) = point(&mut session, typed);
         assert_eq!(looked, None, "{typed}");
@@ -117,7 +82,7 @@ fn what_is_no_place_costs_nothing_and_looks_nowhere() {
 
 #[test]
 fn replaying_looks_nowhere() {
-    let mut session = begin_lit();
+    let mut session = begin_lit("practice:lit/where");
     let _ = point(&mut session, "top");
     let mut log = send(&mut session, [Msg::Looked(sight(-4.0))]);
     log.insert(

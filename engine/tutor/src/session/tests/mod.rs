@@ -25,6 +25,16 @@ fn small() -> Arc<Lesson> {
     SMALL.with(Arc::clone)
 }
 
+/// On a screen of a lesson with a shader to mend and a picture to point at.
+#[track_caller]
+fn begin_lit(key: &str) -> Session {
+    let (lesson, findings) = crate::load::load("lit.toml", include_str!("lit.toml"));
+    let lesson = lesson.unwrap_or_else(|| panic!("{findings:#?}"));
+    let mut session = Session::new(Arc::new(lesson), Start::default());
+    walk_to(&mut session, key);
+    session
+}
+
 fn begin() -> Session {
     Session::new(
         small(),

@@ -3,45 +3,6 @@
 use super::*;
 use crate::exercise::shader::{CodePlace, Job, Ran};
 
-const LESSON: &str = r#"
-format = 1
-id = "lit"
-title = "Lit"
-summary = "A cosine."
-minutes = 1
-why = "Light."
-model = "A cosine."
-
-[[exercise]]
-id = "lit/mend"
-kind = "shader"
-ask = "It should not be squared."
-function = "lit"
-draw = { n_dot_l = "0.1..1 by 0.1", albedo = "0.1..0.9 by 0.1" }
-source = '''
-fn lit(n_dot_l: f32, albedo: f32) -> f32 {
-    return albedo * n_dot_l * n_dot_l;
-}
-'''
-is = "albedo * n_dot_l"
-solution = "fn lit(n_dot_l: f32, albedo: f32) -> f32 { return albedo * n_dot_l; }"
-tolerance = { rel = 0.01 }
-scene = { albedo = 0.5, light_deg = 40 }
-hint = ["Look at the cosine.", "There are two of it."]
-[[exercise.mistake]]
-id = "squared"
-is = "albedo * n_dot_l^2"
-says = "The cosine is there twice."
-"#;
-
-fn begin_lit() -> Session {
-    let (lesson, findings) = crate::load::load("lit.toml", LESSON);
-    let lesson = lesson.unwrap_or_else(|| panic!("{findings:#?}"));
-    let mut session = Session::new(Arc::new(lesson), Start::default());
-    walk_to(&mut session, "practice:lit/mend");
-    session
-}
-
 /// Hands a text in; what is to be saved and run.
 #[track_caller]
 fn hand_in(session: &mut Session, text: &str) -> (Vec<Event>, Job) {
@@ -87,7 +48,7 @@ const TEXT: &str = "fn lit(n_dot_l: f32, albedo: f32) -> f32 {\n    return albed
 
 #[test]
 fn the_text_is_kept_before_it_runs() {
-    let mut session = begin_lit();
+    let mut session = begin_lit("practice:lit/mend");
     let Input::Code { text, .. } = &session.screen().input else {
         panic!("{:?}", session.screen().input);
     };
@@ -162,7 +123,7 @@ fn what_it_computed_is_compared_with_the_right_and_the_known_wrong() {
         ),
     ];
     for (of, result, mistake, says) in rows {
-        let mut session = begin_lit();
+        let mut session = begin_lit("practice:lit/mend");
         let (_, job) = hand_in(&mut session, TEXT);
         let events = send(&mut session, [Msg::Ran(values(&job, of))]);
         let found = attempt(&events);
@@ -173,7 +134,7 @@ fn what_it_computed_is_compared_with_the_right_and_the_known_wrong() {
 
 #[test]
 fn the_worst_point_is_told() {
-    let mut session = begin_lit();
+    let mut session = begin_lit("practice:lit/mend");
     let (_, job) = hand_in(&mut session, TEXT);
     let of = |c: f32, a: f32| if c < 0.15 && a > 0.85 { 9.0 } else { a * c };
     let events = send(&mut session, [Msg::Ran(values(&job, of))]);
@@ -188,7 +149,7 @@ fn the_worst_point_is_told() {
 
 #[test]
 fn what_is_no_shader_counts_for_nothing_and_what_never_ends_does() {
-    let mut session = begin_lit();
+    let mut session = begin_lit("practice:lit/mend");
     let _ = hand_in(&mut session, TEXT);
     let refused = Ran::Refused {
         says: "A `;` is missing.".to_owned(),
@@ -235,7 +196,7 @@ fn what_is_no_shader_counts_for_nothing_and_what_never_ends_does() {
 
 #[test]
 fn resuming_runs_nothing_and_shows_the_same() {
-    let mut session = begin_lit();
+    let mut session = begin_lit("practice:lit/mend");
     let start = Start::default();
     let mut events = Vec::new();
     let mut recorded = Session::new(Arc::clone(session.lesson()), start.clone());
@@ -288,7 +249,7 @@ fn resuming_runs_nothing_and_shows_the_same() {
 
 #[test]
 fn hints_end_with_the_solution() {
-    let mut session = begin_lit();
+    let mut session = begin_lit("practice:lit/mend");
     send(&mut session, [Msg::Hint, Msg::Hint, Msg::Hint]);
     let shown = words(&session);
     assert!(
@@ -299,6 +260,6 @@ fn hints_end_with_the_solution() {
 
 #[test]
 fn what_comes_back_without_having_been_asked_for_is_nothing() {
-    let mut session = begin_lit();
+    let mut session = begin_lit("practice:lit/mend");
     assert_eq!(send(&mut session, [Msg::Ran(Ran::Values(vec![1.0]))]), []);
 }
