@@ -229,7 +229,7 @@ impl AlbedoTable {
     /// - *Value*: 0 to 1.
     /// - *Outside*: beyond the outermost entries the nearest, also for arguments outside [0, 1].
     /// - *Error*: of 64 by 64 entries up to 2.5 % of the value at N·V = 0.05, and 7e-5 in the median of
-    ///   the points that are tried.
+    ///   the points that are tried; up to 0.11 below the first entry, at N·V of 1e-4 and roughness of 0.01.
     pub fn get(&self, n_dot_v: f32, roughness: f32) -> f32 {
         let last = self.size - 1;
         let place = |x: f32| {

@@ -150,7 +150,9 @@ pub fn walk<R: Real>(
                 let l = cosine_around(m, [next(), next()]);
                 // 20 of 21 are kept.
                 let rest = (one - dot(l, m)).pow5();
-                if !matches!(facets, Facets::Coated { .. }) || next() >= rest {
+                let coated = matches!(facets, Facets::Coated { .. });
+                // Of a NaN every direction is kept, or there would be no end.
+                if !coated || rest.is_nan() || next() >= rest {
                     break l;
                 }
             }

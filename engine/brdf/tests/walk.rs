@@ -142,3 +142,36 @@ fn batches_walk_alike() {
         }
     }
 }
+
+/// No number in, and still an end.
+#[test]
+fn what_is_no_number_comes_to_an_end() {
+    let facets = [
+        Facets::Mirror,
+        Facets::Diffuse { albedo: 0.5 },
+        Facets::Coated {
+            f0: f64::NAN,
+            albedo: 0.5,
+        },
+        Facets::Coated {
+            f0: 0.04,
+            albedo: 0.5,
+        },
+    ];
+    for facets in facets {
+        for (alpha, v) in [
+            (f64::NAN, [0.6, 0.0, 0.8]),
+            (0.5, [f64::NAN, 0.0, 0.8]),
+            (0.5, [0.6, 0.0, f64::NAN]),
+            (0.5, [0.0; 3]),
+        ] {
+            let mut hits = 0u32;
+            let next = || {
+                hits += 1;
+                assert!(hits < 1_000_000, "{facets:?} {alpha} {v:?}");
+                0.37
+            };
+            let _ = walk(Ggx::new(alpha), facets, v, next);
+        }
+    }
+}

@@ -10,6 +10,7 @@ mod hostile;
 mod others;
 mod precision;
 mod subject;
+mod walks;
 
 pub(crate) use draw::possible;
 pub use hostile::{Fault, Oddity};
@@ -116,6 +117,8 @@ pub fn bound(name: &str) -> f64 {
         "specular_ggx" => 16.0,
         // Measured on the scale of a term, of which several that are as large cancel.
         "diffuse_oren_nayar_full" => 20.0,
+        // 0.13: smooth surfaces turn from dark to bright between two entries near the horizon.
+        "albedo_table" => 1.1e6,
         // 1e-5, see [`scale`].
         "albedo_ggx" | "albedo_ggx_separable" => 84.0,
         _ => 12.0,
@@ -135,7 +138,8 @@ fn scale(name: &str, args: &[f64]) -> f64 {
         ("sample_hemisphere" | "sample_cap" | "sample_bounded", _) => 1.0,
         // A share of 1; fits of it cancel where it is small and go through 0.
         ("albedo_ggx" | "albedo_ggx_separable", _) => 1.0,
-        ("albedo_ggx_karis" | "albedo_ggx_materialx", _) => 1.0,
+        ("albedo_ggx_karis" | "albedo_ggx_materialx" | "albedo_table", _) => 1.0,
+        ("walk" | "batch_walk" | "batch_walk_baseline", _) => 1.0,
         // The half vector is known as well as the directions, over its length.
         ("rusinkiewicz_and_back", &[x, y, z, vx, vy, vz]) => {
             let sum = [x + vx, y + vy, z + vz];

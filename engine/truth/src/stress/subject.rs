@@ -1,6 +1,6 @@
 //! What can be searched: terms, formulas from vectors, samplers and coordinates.
 
-use super::{Precision, others};
+use super::{Precision, others, walks};
 use crate::{Big, at_precision, value};
 use brdf::batch::Isa;
 use brdf::{Ggx, Param, Rusinkiewicz, Sampler, Term};
@@ -42,6 +42,8 @@ pub(super) enum Against {
     Batch(&'static str),
     /// The same at what [`brdf::batch::sample`] drew with that instruction set.
     DrawnBatch(&'static str, Isa),
+    /// A table's entries and what is between them: the integral.
+    Table,
     /// The quadrature of that integral which is written here, of another integrand by another rule: of
     /// an albedo there is no form.
     Albedo,
@@ -76,7 +78,9 @@ impl Subject {
 
     /// Whether it can be looked at in that precision.
     pub fn has(&self, precision: Precision) -> bool {
-        precision == Precision::Single || !(self.is_batch() || self.against == Against::Albedo)
+        use Against::{Albedo, Batch, DrawnBatch, Table};
+        precision == Precision::Single
+            || !matches!(self.against, Batch(_) | DrawnBatch(..) | Albedo | Table)
     }
 
     /// Whether the rounding of its arguments is allowed for.
@@ -86,13 +90,15 @@ impl Subject {
 
     /// Whether it promises nothing outside the ranges of its arguments.
     pub(super) fn is_batch(&self) -> bool {
-        matches!(self.against, Against::Batch(_) | Against::DrawnBatch(..))
+        matches!(self.against, Against::Batch(_) | Against::DrawnBatch(..)) || self.name == "walk"
     }
 
     /// How much of the effort it is worth: a quadrature is thousands of times a formula.
     pub(super) fn share(&self) -> f64 {
         match self.name {
-            _ if self.against == Against::Albedo => 0.003,
+            _ if matches!(self.against, Against::Albedo | Against::Table) => 0.003,
+            // Three ways of a dozen hits, or forty.
+            "walk" | "batch_walk" | "batch_walk_baseline" => 0.01,
             // A fit for each point.
             "batch_conductor" | "batch_conductor_baseline" => 0.02,
             _ => 1.0,
@@ -121,6 +127,7 @@ impl Subject {
             Against::Batch(form) => value(form, args),
             Against::DrawnBatch(form, isa) => value(form, &others::drawn(isa, args)),
             Against::Albedo => crate::albedo::value(self.name, args).map(|e| Big::new(e, 192)),
+            Against::Table => walks::albedo(args).map(|e| Big::new(e, 192)),
         }
     }
 
@@ -132,7 +139,7 @@ impl Subject {
             Against::Drawn(form, sampler) => {
                 at_precision(form, &drawn(sampler, Precision::Double, args), BITS)
             }
-            Against::Albedo | Against::DrawnBatch(..) => None,
+            Against::Albedo | Against::Table | Against::DrawnBatch(..) => None,
             Against::Batch(form) => at_precision(form, args, BITS),
             Against::Form | Against::Jitter => at_precision(self.name, args, BITS),
         }
@@ -144,6 +151,7 @@ impl Subject {
             Against::Drawn(form, sampler) => {
                 at_drawn(form, sampler, &drawn(sampler, Precision::Single, args))
             }
+            Against::Table => walks::albedo(args).unwrap_or(f64::NAN),
             Against::DrawnBatch(form, isa) => {
                 at_drawn(form, Sampler::BoundedCap, &others::drawn(isa, args))
             }
@@ -187,6 +195,7 @@ pub fn subjects() -> &'static [Subject] {
         all.extend(others::functions());
         all.extend(samplers());
         all.extend(others::batches());
+        all.extend(walks::subjects());
         all.push(coordinates());
         all
     });
