@@ -9,6 +9,7 @@ use crate::memory::Memory;
 use crate::program::{Column, Operations};
 use crate::steps::{Outcome, Slot, Step, Steps};
 use brdf::batch::Isa;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// Programs whose steps are kept.
@@ -45,6 +46,10 @@ struct Ready<R> {
     /// The code of the runs, in their order; and which operands are with the caller.
     runs: Vec<Vec<Placed<R>>>,
     moving: Vec<Moving>,
+    /// Whether inputs and results are all the memory that is needed.
+    in_place: bool,
+    /// Half a tile.
+    middle: usize,
 }
 
 /// An operand in an input or a result: which run and instruction, whether it is the second one,
@@ -64,7 +69,7 @@ unsafe impl<R: Send> Send for Ready<R> {}
 unsafe impl<R: Sync> Sync for Ready<R> {}
 
 impl<R: Machine> Ready<R> {
-    fn new(operations: &Arc<Operations>, columns: &Columns<'_, R>) -> Self {
+    fn new(operations: &Arc<Operations>, columns: &Columns<'_, R>, isa: Isa) -> Self {
         let varying: Vec<bool> = (0..columns.inputs)
             .map(|input| matches!(columns.at(input), Column::Varying(_)))
             .collect();
@@ -84,6 +89,8 @@ impl<R: Machine> Ready<R> {
             same: vec![R::ZERO; operations.ops.len()],
             runs: Vec::new(),
             moving: Vec::new(),
+            in_place: steps.in_place(),
+            middle: R::tile(isa) / 2,
             steps,
         };
         ready.place();
@@ -120,7 +127,7 @@ impl<R: Machine> Ready<R> {
                                 slot,
                             });
                         }
-                        self.slots[slot]
+                        self.slots[slot].wrapping_add(self.middle)
                     }
                     Operand::None | Operand::Same(_) => std::ptr::null_mut(),
                 };
@@ -238,7 +245,7 @@ impl<'a, 'o, R: Machine> Block<'a, 'o, R> {
             if blocks.ready.len() == KEPT {
                 blocks.ready.remove(0);
             }
-            let ready = Ready::new(self.operations, &self.columns);
+            let ready = Ready::new(self.operations, &self.columns, self.isa);
             blocks.ready.push(ready);
             blocks.ready.len() - 1
         });
@@ -252,35 +259,42 @@ impl<'a, 'o, R: Machine> Block<'a, 'o, R> {
         // A root that nobody asked for takes no slice; the program still computes it.
         let varies = |outcome: &Outcome| !matches!(outcome, Outcome::Same(_));
         if ready.steps.results.iter().any(varies) {
-            for start in (0..self.columns.count).step_by(R::CHUNK) {
-                self.place(ready, start);
-                self.chunk(ready, start);
+            let (count, tile) = (self.columns.count, R::tile(self.isa));
+            // What needs no memory of ours needs no chunks.
+            let own = |out: &&mut [R]| out.len() < count;
+            let missing = self.outs.len() < ready.steps.results.len();
+            let chunk = match ready.in_place && !missing && !self.outs.iter().any(own) {
+                true => count,
+                false => even(count, tile, R::CHUNK),
+            };
+            for start in (0..count).step_by(chunk.max(1)) {
+                let range = start..(start + chunk).min(count);
+                self.place(ready, range.clone(), range.len() >= tile);
+                self.chunk(ready, range);
             }
         }
     }
 
-    /// Says where a chunk's values are: with the caller where the chunk is whole, so that nothing
-    /// is copied, else in memory of our own, where a tile may reach beyond the last point.
-    fn place(&mut self, ready: &mut Ready<R>, start: usize) {
-        let count = (self.columns.count - start).min(R::CHUNK);
-        let whole = count == R::CHUNK;
+    /// Says where a chunk's values are: with the caller where there is a tile of them, so that
+    /// nothing is copied, else in memory of our own.
+    fn place(&mut self, ready: &mut Ready<R>, range: Range<usize>, whole: bool) {
         for (index, slot) in ready.steps.slots.iter().enumerate() {
             ready.slots[index] = match *slot {
                 Slot::Temporary | Slot::Same(_) => continue,
                 // Only read from: an input's slot is never one that is stored to.
                 Slot::Input(input) => match self.columns.at(input) {
-                    Column::Varying(values) if whole => values[start..].as_ptr().cast_mut(),
+                    Column::Varying(values) if whole => values[range.start..].as_ptr().cast_mut(),
                     Column::Varying(values) => {
                         let own = ready.memory.chunk(index);
                         // SAFETY: a chunk of our own has room for them, and nobody else uses it.
-                        unsafe { slice_mut(own, count) }
-                            .copy_from_slice(&values[start..start + count]);
+                        unsafe { slice_mut(own, range.len()) }
+                            .copy_from_slice(&values[range.clone()]);
                         own
                     }
                     Column::Uniform(_) => ready.memory.chunk(index),
                 },
                 Slot::Result(result) => match self.outs.get_mut(result) {
-                    Some(out) if whole && out.len() >= start + count => out[start..].as_mut_ptr(),
+                    Some(out) if whole && out.len() >= range.end => out[range.start..].as_mut_ptr(),
                     _ => ready.memory.chunk(index),
                 },
             };
@@ -291,12 +305,12 @@ impl<'a, 'o, R: Machine> Block<'a, 'o, R> {
                 false => &mut placed.at,
                 true => &mut placed.with,
             };
-            *operand = ready.slots[moving.slot];
+            *operand = ready.slots[moving.slot].wrapping_add(ready.middle);
         }
     }
 
-    fn chunk(&mut self, ready: &Ready<R>, start: usize) {
-        let count = (self.columns.count - start).min(R::CHUNK);
+    fn chunk(&mut self, ready: &Ready<R>, range: Range<usize>) {
+        let count = range.len();
         let at = |slot: usize| ready.slots[slot];
         let mut runs = ready.runs.iter();
         for step in &ready.steps.steps {
@@ -348,8 +362,8 @@ impl<'a, 'o, R: Machine> Block<'a, 'o, R> {
             }
         }
         for (out, outcome) in self.outs.iter_mut().zip(&ready.steps.results) {
-            let end = out.len().min(start + count);
-            if let (Outcome::Held(slot), Some(out)) = (outcome, out.get_mut(start..end))
+            let end = out.len().min(range.end);
+            if let (Outcome::Held(slot), Some(out)) = (outcome, out.get_mut(range.start..end))
                 && !std::ptr::eq(at(*slot), out.as_ptr())
             {
                 // SAFETY: as above; what a slice already holds is not copied onto itself.
@@ -357,6 +371,12 @@ impl<'a, 'o, R: Machine> Block<'a, 'o, R> {
             }
         }
     }
+}
+
+/// The length of chunks of about the same size, in whole tiles.
+fn even(count: usize, tile: usize, most: usize) -> usize {
+    let chunks = count.div_ceil(most).max(1);
+    count.div_ceil(chunks).next_multiple_of(tile).min(most)
 }
 
 /// Equal, or the same NaN.

@@ -7,22 +7,40 @@ use crate::expr::CompareOp;
 macro_rules! pairs {
     ($to:ident) => {
         $to! {
-            Only: OnlyAdd OnlyAddSame OnlySub OnlySubSame OnlySubFromSame
-                OnlyMul OnlyMulSame OnlySquare OnlyDiv OnlyDivSame OnlyDivIntoSame;
-            Add: AddAdd AddAddSame AddSub AddSubSame AddSubFromSame
-                AddMul AddMulSame AddSquare AddDiv AddDivSame AddDivIntoSame;
-            Sub: SubAdd SubAddSame SubSub SubSubSame SubSubFromSame
-                SubMul SubMulSame SubSquare SubDiv SubDivSame SubDivIntoSame;
-            SubFrom: SubFromAdd SubFromAddSame SubFromSub SubFromSubSame SubFromSubFromSame
-                SubFromMul SubFromMulSame SubFromSquare SubFromDiv SubFromDivSame
-                SubFromDivIntoSame;
-            Mul: MulAdd MulAddSame MulSub MulSubSame MulSubFromSame
-                MulMul MulMulSame MulSquare MulDiv MulDivSame MulDivIntoSame;
-            Div: DivAdd DivAddSame DivSub DivSubSame DivSubFromSame
-                DivMul DivMulSame DivSquare DivDiv DivDivSame DivDivIntoSame;
-            DivInto: DivIntoAdd DivIntoAddSame DivIntoSub DivIntoSubSame DivIntoSubFromSame
-                DivIntoMul DivIntoMulSame DivIntoSquare DivIntoDiv DivIntoDivSame
-                DivIntoDivIntoSame;
+            Only:
+                OnlyAdd OnlyAddSame OnlySub OnlySubSame OnlySubFromSame
+                OnlySubFromSameFifth OnlyMul OnlyMulSame OnlySquare
+                OnlySquareMulSame OnlyDiv OnlyDivSame OnlyDivIntoSame;
+            Park:
+                ParkAdd ParkAddSame ParkSub ParkSubSame ParkSubFromSame
+                ParkSubFromSameFifth ParkMul ParkMulSame ParkSquare
+                ParkSquareMulSame ParkDiv ParkDivSame ParkDivIntoSame;
+            Add:
+                AddAdd AddAddSame AddSub AddSubSame AddSubFromSame
+                AddSubFromSameFifth AddMul AddMulSame AddSquare AddSquareMulSame
+                AddDiv AddDivSame AddDivIntoSame;
+            Sub:
+                SubAdd SubAddSame SubSub SubSubSame SubSubFromSame
+                SubSubFromSameFifth SubMul SubMulSame SubSquare SubSquareMulSame
+                SubDiv SubDivSame SubDivIntoSame;
+            SubFrom:
+                SubFromAdd SubFromAddSame SubFromSub SubFromSubSame
+                SubFromSubFromSame SubFromSubFromSameFifth SubFromMul
+                SubFromMulSame SubFromSquare SubFromSquareMulSame SubFromDiv
+                SubFromDivSame SubFromDivIntoSame;
+            Mul:
+                MulAdd MulAddSame MulSub MulSubSame MulSubFromSame
+                MulSubFromSameFifth MulMul MulMulSame MulSquare MulSquareMulSame
+                MulDiv MulDivSame MulDivIntoSame;
+            Div:
+                DivAdd DivAddSame DivSub DivSubSame DivSubFromSame
+                DivSubFromSameFifth DivMul DivMulSame DivSquare DivSquareMulSame
+                DivDiv DivDivSame DivDivIntoSame;
+            DivInto:
+                DivIntoAdd DivIntoAddSame DivIntoSub DivIntoSubSame
+                DivIntoSubFromSame DivIntoSubFromSameFifth DivIntoMul
+                DivIntoMulSame DivIntoSquare DivIntoSquareMulSame DivIntoDiv
+                DivIntoDivSame DivIntoDivIntoSame;
         }
     };
 }
@@ -34,6 +52,8 @@ pub(crate) use pairs;
 pub(crate) enum Outer {
     /// r = p: a chain begins with it.
     Only,
+    /// q = r, r = p: the next chain begins.
+    Park,
     Add,
     Sub,
     /// r = p − r
@@ -45,7 +65,7 @@ pub(crate) enum Outer {
 }
 
 /// What a pair is: of two slots, of a slot and a value that is the same everywhere, or of one
-/// slot with itself.
+/// slot with itself; and the two of one slot and a value that lobes are made of.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Inner {
     Add,
@@ -53,9 +73,13 @@ pub(crate) enum Inner {
     Sub,
     SubSame,
     SubFromSame,
+    /// (c − m)⁵, as in Schlick's approximation
+    SubFromSameFifth,
     Mul,
     MulSame,
     Square,
+    /// c m², as in α² x²
+    SquareMulSame,
     Div,
     DivSame,
     DivIntoSame,
@@ -122,7 +146,7 @@ macro_rules! define {
 
         /// All pairs, by [`Outer`] and [`Inner`].
         #[rustfmt::skip]
-        const PAIRS: [[Code; 11]; 7] = [$([$(Code::$pair),+]),+];
+        const PAIRS: [[Code; 13]; 8] = [$([$(Code::$pair),+]),+];
     };
 }
 pairs!(define);

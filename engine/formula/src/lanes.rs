@@ -15,9 +15,7 @@ pub(crate) trait Lanes: Copy {
     type Real: Real;
     /// Values in a vector.
     const WIDTH: usize;
-    /// Vectors in a tile: half of the registers that there are, or less.
-    const TILE: usize;
-    /// Whether there are registers for a second tile.
+    /// Whether there are registers for two tiles.
     const PARKS: bool;
     /// Reads [`Lanes::WIDTH`] values, which must be there.
     unsafe fn load(from: *const Self::Real) -> Self;
@@ -61,7 +59,6 @@ impl<R: Real> Plain<R> {
 impl<R: Real> Lanes for Plain<R> {
     type Real = R;
     const WIDTH: usize = 4;
-    const TILE: usize = 8;
     const PARKS: bool = false;
     #[inline(always)]
     unsafe fn load(from: *const R) -> Self {
@@ -130,7 +127,6 @@ mod x86 {
          $div:ident, $sqrt:ident, $andnot:ident, $xor:ident) => {
             type Real = $real;
             const WIDTH: usize = size_of::<Self>() / size_of::<$real>();
-            const TILE: usize = 8;
             const PARKS: bool = size_of::<Self>() == 64;
             #[inline(always)]
             unsafe fn load(from: *const $real) -> Self {

@@ -10,10 +10,12 @@ use crate::eval::Real;
 use crate::lanes::Lanes;
 use brdf::batch::{Isa, Level};
 
-/// Most vectors in a tile.
-const VECTORS: usize = 8;
+/// Most vectors in a tile: more, and sixteen registers are too few. Without optimisation each
+/// value of each instruction has a place on the stack, and with fewer they fit on it.
+const VECTORS: usize = if cfg!(debug_assertions) { 2 } else { 10 };
 
 /// The same for each of them: written out, so that they stay in registers.
+#[cfg(not(debug_assertions))]
 macro_rules! all {
     ($one:ident) => {
         $one!(0);
@@ -24,11 +26,20 @@ macro_rules! all {
         $one!(5);
         $one!(6);
         $one!(7);
+        $one!(8);
+        $one!(9);
+    };
+}
+#[cfg(debug_assertions)]
+macro_rules! all {
+    ($one:ident) => {
+        $one!(0);
+        $one!(1);
     };
 }
 
-/// An instruction whose operands are where they are: at the first value of a slot, or the value
-/// itself.
+/// An instruction whose operands are where they are: [`Machine::tile`]`/ 2` behind the first value
+/// of a slot, from where the others are near enough for a short instruction; or the value itself.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Placed<R> {
     pub code: Code,
@@ -40,15 +51,19 @@ pub(crate) struct Placed<R> {
 
 /// A precision that the machine computes in.
 pub(crate) trait Machine: Real {
-    /// Values in a chunk: a multiple of every tile, and a slot of two kilobytes.
-    const CHUNK: usize = 2048 / size_of::<Self>();
+    /// Most values in a chunk of our own memory, a whole number of tiles.
+    const CHUNK: usize = 2560 / size_of::<Self>();
 
-    /// Carries `count` values, rounded up to whole tiles, through the code.
+    /// Values in a tile, far fewer than in a chunk.
+    fn tile(isa: Isa) -> usize;
+
+    /// Carries `count` values through the code. The last tile begins before the one before it
+    /// ends, where they do not come out even: its values are computed twice.
     ///
     /// # Safety
-    /// The slots that the code names, and the one for what is parked, point to
-    /// [`Machine::CHUNK`] values that nothing else uses meanwhile, those that are written to
-    /// writable ones; `count` is at most [`Machine::CHUNK`].
+    /// The slots that the code names point to `count` values that nothing else uses meanwhile,
+    /// at least to a tile of them, and `parked` to a tile; those that are written to are
+    /// writable. What the code reads from a slot it did not write, it does not write over.
     unsafe fn run(isa: Isa, code: &[Placed<Self>], parked: *mut Self, count: usize);
 
     /// A core function at many points.
@@ -58,6 +73,23 @@ pub(crate) trait Machine: Real {
 macro_rules! machine {
     ($real:ident, $block:ident, $sse:ident, $avx2:ident, $avx512:ident) => {
         impl Machine for $real {
+            fn tile(isa: Isa) -> usize {
+                #[cfg(not(target_arch = "x86_64"))]
+                {
+                    let _ = isa;
+                    tile::<crate::lanes::Plain<$real>>()
+                }
+                #[cfg(target_arch = "x86_64")]
+                {
+                    use std::arch::x86_64::*;
+                    match isa.level() {
+                        Level::Avx512 => tile::<$avx512>(),
+                        Level::Avx2 => tile::<$avx2>(),
+                        Level::Baseline => tile::<$sse>(),
+                    }
+                }
+            }
+
             unsafe fn run(isa: Isa, code: &[Placed<$real>], parked: *mut $real, count: usize) {
                 #[cfg(not(target_arch = "x86_64"))]
                 {
@@ -100,14 +132,34 @@ macro_rules! machine {
 machine!(f32, f32_block, __m128, __m256, __m512);
 machine!(f64, f64_block, __m128d, __m256d, __m512d);
 
+/// A vector of a tile whose middle is given.
+#[inline(always)]
+fn nth<V: Lanes>(middle: *mut V::Real, place: usize) -> *mut V::Real {
+    middle
+        .wrapping_add(place * V::WIDTH)
+        .wrapping_sub(tile::<V>() / 2)
+}
+
+/// Vectors in a tile: of the longest ones fewer, so that few points are computed twice.
+#[inline(always)]
+const fn vectors<V: Lanes>() -> usize {
+    if V::PARKS && VECTORS > 8 { 8 } else { VECTORS }
+}
+
+/// Values in a tile.
+#[inline(always)]
+fn tile<V: Lanes>() -> usize {
+    vectors::<V>() * V::WIDTH
+}
+
 /// # Safety
 /// As [`Machine::run`], on a machine that has the instructions of `V`.
 #[inline(always)]
 unsafe fn run<V: Lanes>(code: &[Placed<V::Real>], parked: *mut V::Real, count: usize) {
-    // SAFETY: as promised; a tile starts below `count`, and a chunk is a multiple of a tile.
+    // SAFETY: as promised; a tile starts at the first value, or ends at the last one or before.
     unsafe {
         let mut start = 0;
-        while start < count {
+        loop {
             let mut r = [V::splat(V::Real::ZERO); VECTORS];
             // Where registers are many, what is parked is in them too.
             let mut q = [V::splat(V::Real::ZERO); VECTORS];
@@ -117,7 +169,7 @@ unsafe fn run<V: Lanes>(code: &[Placed<V::Real>], parked: *mut V::Real, count: u
                     (|$r:ident, $i:ident| $new:expr) => {{
                         macro_rules! one {
                             ($place:literal) => {
-                                if $place < V::TILE {
+                                if $place < vectors::<V>() {
                                     let ($r, $i) = (r[$place], $place);
                                     r[$place] = $new;
                                 }
@@ -129,9 +181,9 @@ unsafe fn run<V: Lanes>(code: &[Placed<V::Real>], parked: *mut V::Real, count: u
                 /// With those of a slot.
                 macro_rules! slot {
                     (|$r:ident, $m:ident| $new:expr) => {{
-                        let from = instr.at.add(start);
+                        let from = instr.at.wrapping_add(start);
                         each!(|$r, i| {
-                            let $m = V::load(from.add(i * V::WIDTH));
+                            let $m = V::load(nth::<V>(from, i));
                             $new
                         });
                     }};
@@ -155,63 +207,70 @@ unsafe fn run<V: Lanes>(code: &[Placed<V::Real>], parked: *mut V::Real, count: u
                         })
                     };
                 }
+                macro_rules! park {
+                    ($r:ident, $i:ident) => {
+                        match V::PARKS {
+                            true => q[$i] = $r,
+                            false => $r.store(parked.add($i * V::WIDTH)),
+                        }
+                    };
+                }
                 /// With a pair.
                 macro_rules! pair {
                     ($outer:ident, $m:ident $n:ident $pair:expr) => {{
-                        let (from, other) = (instr.at.add(start), instr.with.add(start));
+                        let (from, other) = (instr.at.wrapping_add(start), instr.with.wrapping_add(start));
                         each!(|r, i| {
-                            let $m = V::load(from.add(i * V::WIDTH));
-                            let $n = V::load(other.add(i * V::WIDTH));
-                            pair!(@ $outer r $pair)
+                            let $m = V::load(nth::<V>(from, i));
+                            let $n = V::load(nth::<V>(other, i));
+                            pair!(@ $outer r i $pair)
                         });
                     }};
                     ($outer:ident, same $m:ident $c:ident $pair:expr) => {{
-                        let from = instr.at.add(start);
+                        let from = instr.at.wrapping_add(start);
                         let $c = V::splat(instr.value);
                         each!(|r, i| {
-                            let $m = V::load(from.add(i * V::WIDTH));
-                            pair!(@ $outer r $pair)
+                            let $m = V::load(nth::<V>(from, i));
+                            pair!(@ $outer r i $pair)
                         });
                     }};
-                    (@ Only $r:ident $pair:expr) => {{
+                    (@ Only $r:ident $i:ident $pair:expr) => {{
                         let _ = $r;
                         $pair
                     }};
-                    (@ Add $r:ident $pair:expr) => { $r.add($pair) };
-                    (@ Sub $r:ident $pair:expr) => { $r.sub($pair) };
-                    (@ SubFrom $r:ident $pair:expr) => { $pair.sub($r) };
-                    (@ Mul $r:ident $pair:expr) => { $r.mul($pair) };
-                    (@ Div $r:ident $pair:expr) => { $r.div($pair) };
-                    (@ DivInto $r:ident $pair:expr) => { $pair.div($r) };
+                    (@ Park $r:ident $i:ident $pair:expr) => {{
+                        park!($r, $i);
+                        $pair
+                    }};
+                    (@ Add $r:ident $i:ident $pair:expr) => { $r.add($pair) };
+                    (@ Sub $r:ident $i:ident $pair:expr) => { $r.sub($pair) };
+                    (@ SubFrom $r:ident $i:ident $pair:expr) => { $pair.sub($r) };
+                    (@ Mul $r:ident $i:ident $pair:expr) => { $r.mul($pair) };
+                    (@ Div $r:ident $i:ident $pair:expr) => { $r.div($pair) };
+                    (@ DivInto $r:ident $i:ident $pair:expr) => { $pair.div($r) };
                 }
                 macro_rules! instructions {
                     ($($outer:ident: $add:ident $add_same:ident $sub:ident $sub_same:ident
-                        $sub_from_same:ident $mul:ident $mul_same:ident $square:ident $div:ident
-                        $div_same:ident $div_into_same:ident;)+) => {
+                        $sub_from_same:ident $sub_from_same_fifth:ident $mul:ident $mul_same:ident
+                        $square:ident $square_mul_same:ident $div:ident $div_same:ident
+                        $div_into_same:ident;)+) => {
                         match instr.code {
                             Code::Load => slot!(|_r, m| m),
                             Code::LoadSame => same!(|_r, c| c),
                             Code::LoadParked => parked!(|_r, q| q),
                             Code::Store => {
-                                let to = instr.at.add(start);
+                                let to = instr.at.wrapping_add(start);
                                 each!(|r, i| {
-                                    r.store(to.add(i * V::WIDTH));
+                                    r.store(nth::<V>(to, i));
                                     r
                                 });
                             }
                             Code::Park => each!(|r, i| {
-                                match V::PARKS {
-                                    true => q[i] = r,
-                                    false => r.store(parked.add(i * V::WIDTH)),
-                                }
+                                park!(r, i);
                                 r
                             }),
                             Code::Square => each!(|r, _i| r.mul(r)),
                             Code::Cube => each!(|r, _i| r.mul(r.mul(r))),
-                            Code::Fifth => each!(|r, _i| {
-                                let square = r.mul(r);
-                                r.mul(square.mul(square))
-                            }),
+                            Code::Fifth => each!(|r, _i| fifth(r)),
                             Code::Power => each!(|r, _i| power(r, instr.power)),
                             Code::Sqrt => each!(|r, _i| r.sqrt()),
                             Code::Abs => each!(|r, _i| r.abs()),
@@ -249,9 +308,21 @@ unsafe fn run<V: Lanes>(code: &[Placed<V::Real>], parked: *mut V::Real, count: u
                                 Code::$sub => pair!($outer, m n m.sub(n)),
                                 Code::$sub_same => pair!($outer, same m c m.sub(c)),
                                 Code::$sub_from_same => pair!($outer, same m c c.sub(m)),
+                                Code::$sub_from_same_fifth => {
+                                    pair!($outer, same m c fifth(c.sub(m)));
+                                }
                                 Code::$mul => pair!($outer, m n m.mul(n)),
                                 Code::$mul_same => pair!($outer, same m c m.mul(c)),
-                                Code::$square => slot!(|r, m| pair!(@ $outer r m.mul(m))),
+                                Code::$square => {
+                                    let from = instr.at.wrapping_add(start);
+                                    each!(|r, i| {
+                                        let m = V::load(nth::<V>(from, i));
+                                        pair!(@ $outer r i m.mul(m))
+                                    });
+                                }
+                                Code::$square_mul_same => {
+                                    pair!($outer, same m c c.mul(m.mul(m)));
+                                }
                                 Code::$div => pair!($outer, m n m.div(n)),
                                 Code::$div_same => pair!($outer, same m c m.div(c)),
                                 Code::$div_into_same => pair!($outer, same m c c.div(m)),
@@ -261,8 +332,24 @@ unsafe fn run<V: Lanes>(code: &[Placed<V::Real>], parked: *mut V::Real, count: u
                 }
                 pairs!(instructions);
             }
-            start += V::TILE * V::WIDTH;
+            if start + tile::<V>() >= count {
+                break;
+            }
+            start = (start + tile::<V>()).min(count - tile::<V>());
         }
+    }
+}
+
+/// r⁵, with the products of [`Real::power`].
+///
+/// # Safety
+/// As the methods of [`Lanes`].
+#[inline(always)]
+unsafe fn fifth<V: Lanes>(r: V) -> V {
+    // SAFETY: the caller's promises are the same.
+    unsafe {
+        let square = r.mul(r);
+        r.mul(square.mul(square))
     }
 }
 

@@ -2,10 +2,10 @@
 //! a function called between them.
 
 use crate::builtin::Builtin;
-use crate::code::{Code, Inner, Instr, Operand, Outer, pair};
+use crate::code::{Code, Instr, Operand, Outer, pair};
 use crate::dag::{Id, Op, TermRef};
 use crate::expr::CompareOp;
-use crate::schedule::{Schedule, is_called};
+use crate::schedule::{Pair, Schedule, is_called};
 
 /// Where a chunk of values lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -120,27 +120,18 @@ fn outer(op: &Op) -> Option<(Id, Id, [Outer; 2])> {
     })
 }
 
-/// An operation as a pair: of two slots, of a slot and a value, of a value and a slot.
-fn inner(op: &Op) -> Option<(Id, Id, [Inner; 3])> {
-    use Inner::*;
-    Some(match *op {
-        Op::PowInt(a, 2) => (a, a, [Square; 3]),
-        Op::Mul(a, b) if a == b => (a, a, [Square; 3]),
-        Op::Add(a, b) => (a, b, [Add, AddSame, AddSame]),
-        Op::Sub(a, b) => (a, b, [Sub, SubSame, SubFromSame]),
-        Op::Mul(a, b) => (a, b, [Mul, MulSame, MulSame]),
-        Op::Div(a, b) => (a, b, [Div, DivSame, DivIntoSame]),
-        _ => return None,
-    })
-}
-
 struct Planner<'a> {
     ops: &'a [Op],
     schedule: Schedule,
     /// The slot that holds an operation's value.
     held: Vec<Option<usize>>,
     slots: Vec<Slot>,
+    /// Slots to be used again; those that were filled before this run only after it, since what
+    /// it reads may be read twice.
     free: Vec<usize>,
+    free_later: Vec<usize>,
+    /// Whether this run filled a slot.
+    fresh: Vec<bool>,
     steps: Vec<Step>,
     run: Vec<Instr>,
     /// The operations whose values the machine holds.
@@ -152,13 +143,14 @@ impl Steps {
     /// Plans the evaluation of `roots`, with `varying` telling which inputs differ from point
     /// to point.
     pub fn new(ops: &[Op], roots: &[Id], varying: &[bool]) -> Steps {
-        let simple = |id: Id| inner(&ops[id]).map(|(a, b, _)| (a, b));
-        let schedule = Schedule::new(ops, roots, varying, simple);
+        let schedule = Schedule::new(ops, roots, varying);
         let mut planner = Planner {
             ops,
             held: vec![None; ops.len()],
             slots: Vec::new(),
             free: Vec::new(),
+            free_later: Vec::new(),
+            fresh: Vec::new(),
             steps: Vec::new(),
             run: Vec::new(),
             register: None,
@@ -187,6 +179,12 @@ impl Steps {
         }
     }
 
+    /// Whether one run does it all, with no memory but that of inputs and results.
+    pub fn in_place(&self) -> bool {
+        let temporary = |slot: &Slot| matches!(slot, Slot::Temporary | Slot::Same(_));
+        matches!(self.steps[..], [] | [Step::Run(_)]) && !self.slots.iter().any(temporary)
+    }
+
     /// Whether those of a function's arguments that are of the material are the same everywhere.
     pub fn of_material(&self, term: &brdf::Term, args: &[usize]) -> bool {
         let mut args = args.iter().zip(term.params);
@@ -198,8 +196,13 @@ impl Steps {
 
 impl Planner<'_> {
     fn hold(&mut self, id: Id, slot: Slot) -> usize {
+        self.held[id] = Some(self.new_slot(slot));
+        self.slots.len() - 1
+    }
+
+    fn new_slot(&mut self, slot: Slot) -> usize {
         self.slots.push(slot);
-        self.held[id] = Some(self.slots.len() - 1);
+        self.fresh.push(false);
         self.slots.len() - 1
     }
 
@@ -224,10 +227,8 @@ impl Planner<'_> {
         if let Some(slot) = self.held[id] {
             return slot;
         }
-        let slot = self.free.pop().unwrap_or_else(|| {
-            self.slots.push(Slot::Temporary);
-            self.slots.len() - 1
-        });
+        let slot = self.free.pop();
+        let slot = slot.unwrap_or_else(|| self.new_slot(Slot::Temporary));
         self.held[id] = Some(slot);
         slot
     }
@@ -239,7 +240,10 @@ impl Planner<'_> {
                 && let Some(slot) = self.held[operand]
                 && self.slots[slot] == Slot::Temporary
             {
-                self.free.push(slot);
+                match self.fresh[slot] {
+                    true => self.free.push(slot),
+                    false => self.free_later.push(slot),
+                }
             }
         }
     }
@@ -248,6 +252,8 @@ impl Planner<'_> {
         if !self.run.is_empty() {
             self.steps.push(Step::Run(std::mem::take(&mut self.run)));
         }
+        self.free.append(&mut self.free_later);
+        self.fresh.fill(false);
         self.register = None;
     }
 
@@ -279,16 +285,19 @@ impl Planner<'_> {
 
     /// What is done with an operation on values in memory as a pair.
     fn pair(&mut self, id: Id, outer: Outer) {
-        let Some((m, n, [slots, same_right, same_left])) = inner(&self.ops[id]) else {
+        let Some(Pair {
+            inner, at, with, ..
+        }) = self.schedule.as_pair[id]
+        else {
             return;
         };
-        let same = &self.schedule.same;
-        let (inner, m, n) = match (same[m], same[n]) {
-            (true, _) => (same_left, n, m),
-            (false, true) => (same_right, m, n),
-            (false, false) => (slots, m, n),
+        let (at, with) = (self.operand(at), self.operand(with));
+        // A chain that begins where another one was parked.
+        let parks = |last: &mut Instr| last.code == Code::Park;
+        let outer = match outer == Outer::Only && self.run.pop_if(parks).is_some() {
+            true => Outer::Park,
+            false => outer,
         };
-        let (at, with) = (self.operand(m), self.operand(n));
         let code = Instr::new(pair(outer, inner)).at(at);
         self.run.push(Instr { with, ..code });
     }
@@ -328,11 +337,12 @@ impl Planner<'_> {
         self.push(codes, second);
     }
 
-    /// Whether an operation's operands lie in memory, or one of them is the same everywhere, and
-    /// it can begin a chain. One value used twice is better loaded once.
+    /// Whether an operation begins a chain as a pair: not if it can go on from the register.
     fn begins(&self, id: Id) -> bool {
-        let free = |operand: Id| self.register != Some(operand) && self.parked != Some(operand);
-        inner(&self.ops[id]).is_some_and(|(a, b, _)| free(a) && free(b))
+        let goes_on = self
+            .register
+            .is_some_and(|held| self.ops[id].operands().contains(&held));
+        self.schedule.as_pair[id].is_some() && !goes_on
     }
 
     /// Plans an operation; `after` are those that come later.
@@ -367,6 +377,7 @@ impl Planner<'_> {
             self.run.push(Instr::new(Code::Park));
         } else {
             let slot = self.keep(id);
+            self.fresh[slot] = true;
             self.run
                 .push(Instr::new(Code::Store).at(Operand::Slot(slot)));
         }

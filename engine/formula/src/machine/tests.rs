@@ -69,6 +69,7 @@ fn codes() -> Vec<Code> {
     }
     let outers = [
         Outer::Only,
+        Outer::Park,
         Outer::Add,
         Outer::Sub,
         Outer::SubFrom,
@@ -82,9 +83,11 @@ fn codes() -> Vec<Code> {
         Inner::Sub,
         Inner::SubSame,
         Inner::SubFromSame,
+        Inner::SubFromSameFifth,
         Inner::Mul,
         Inner::MulSame,
         Inner::Square,
+        Inner::SquareMulSame,
         Inner::Div,
         Inner::DivSame,
         Inner::DivIntoSame,
@@ -103,27 +106,27 @@ fn check<R: Machine>() {
         (0..R::CHUNK).map(|i| R::of(value(i))).collect()
     };
     // Every value meets every other one.
-    let (mut a, mut b, mut c) = (column(HARD.len()), column(1), column(5));
+    let (mut first, mut second, mut third) = (column(HARD.len()), column(1), column(5));
     let mut tried: Vec<(Code, i32)> = codes().into_iter().map(|code| (code, 1)).collect();
     tried.extend([0, 1, 6, 7, -3].map(|power| (Code::Power, power)));
     for (tried, power) in tried {
         let mut evaluate = |isa: Option<Isa>| -> Vec<R> {
             let (mut out, mut parked) = (vec![R::ZERO; R::CHUNK], vec![R::ZERO; R::CHUNK]);
-            let (first, second, third) = (a.as_mut_ptr(), b.as_mut_ptr(), c.as_mut_ptr());
-            let place = |code, at| Placed {
+            let middle = isa.map_or_else(tile::<Plain<R>>, R::tile) / 2;
+            let mut place = |code, column: &mut [R]| Placed {
                 code,
                 power,
                 value: R::of(-2.5),
-                at,
-                with: third,
+                at: column.as_mut_ptr().wrapping_add(middle),
+                with: third.as_mut_ptr().wrapping_add(middle),
             };
             let code = [
-                place(Code::Load, second),
-                place(Code::Park, second),
-                place(Code::Load, first),
+                place(Code::Load, &mut second),
+                place(Code::Park, &mut second),
+                place(Code::Load, &mut first),
                 // What is in the register meets the second column, or its pair with the third.
-                place(tried, second),
-                place(Code::Store, out.as_mut_ptr()),
+                place(tried, &mut second),
+                place(Code::Store, &mut out),
             ];
             // SAFETY: every pointer is to a chunk of its own.
             unsafe {
