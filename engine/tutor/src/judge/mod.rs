@@ -44,7 +44,7 @@ use phrase::{Hit, Phrase, STATED};
 use text::Token;
 
 /// Changes whenever the same answer may get another verdict; kept in every log.
-pub const JUDGE_VERSION: &str = "8";
+pub const JUDGE_VERSION: &str = "9";
 
 /// What an answer is worth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
