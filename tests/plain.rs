@@ -217,8 +217,12 @@ fn what_cannot_be_meant_as_an_answer_is_none() {
             ("help", ":skip  skip this"),
             (":?", ":quit  save and leave"),
             ("", "! "),
-            (":foo", ""),
+            (":foo", ":foo is no command"),
         ] {
+            // Of an explanation it is a line like any other.
+            if typed == ":foo" && skips == 14 {
+                continue;
+            }
             let home = tempfile::tempdir().expect("a folder");
             let input = format!("{}{typed}\n", ":skip\n".repeat(skips));
             let text = stdout(&learn(home.path(), "smith-g2", "p", &input));
@@ -228,12 +232,10 @@ fn what_cannot_be_meant_as_an_answer_is_none() {
                 .1;
             assert!(after.contains(said), "{typed:?}: {text}");
             // Said, and asked again.
-            if typed != ":foo" {
-                assert!(after.contains(asked), "{typed:?} at {asked}: {text}");
-                let log = log(home.path());
-                for kind in ["attempt", "explained", "draft"] {
-                    assert!(!log.contains(&format!("\"{kind}\"")), "{typed:?}: {log}");
-                }
+            assert!(after.contains(asked), "{typed:?} at {asked}: {text}");
+            let log = log(home.path());
+            for kind in ["attempt", "explained", "draft"] {
+                assert!(!log.contains(&format!("\"{kind}\"")), "{typed:?}: {log}");
             }
         }
     }

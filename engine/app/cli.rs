@@ -40,7 +40,7 @@ pub enum Command {
     Transcript(Transcript),
     /// Compute an expression with the core's functions
     Eval(Eval),
-    /// List the exercises, or draw one
+    /// Draw an exercise
     Exercise(Exercise),
     /// Mark an answer to an exercise
     Mark(Mark),

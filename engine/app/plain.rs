@@ -198,11 +198,11 @@ impl Plain<'_> {
             ":hint" | ":h" => Msg::Hint,
             ":due" => return self.ask_due(),
             ":help" | ":?" => {
-                help(view)?;
+                help(view, self.offer.is_some())?;
                 return Ok(Then::Stay);
             }
             _ if self.editor.is_none() && asks_for_help(command) => {
-                help(view)?;
+                help(view, self.offer.is_some())?;
                 return Ok(Then::Stay);
             }
             _ if is_command_without_colon(command, &view.input) => {
@@ -270,8 +270,11 @@ impl Plain<'_> {
         let Some(sitting) = next else {
             return Ok(false);
         };
-        self.sitting.settle();
-        self.sitting = sitting.with_second_opinions(self.judge.clone());
+        let next = sitting.with_second_opinions(self.judge.clone());
+        if let Err(why) = std::mem::replace(&mut self.sitting, next).close() {
+            output::complain(&format!("the last answers could not be saved: {why}"));
+        }
+        self.said_unsaved = false;
         self.seen = None;
         self.editor = None;
         output::line("")?;
@@ -595,7 +598,7 @@ fn headline(view: &View) -> String {
     }
 }
 
-fn help(view: &View) -> Result<(), Failure> {
+fn help(view: &View, offers_due: bool) -> Result<(), Failure> {
     let mut lines = Vec::new();
     let mut say = |works: bool, line: &str| {
         if works {
@@ -619,6 +622,7 @@ fn help(view: &View) -> Result<(), Failure> {
             label => format!(":skip  {label}"),
         },
     );
+    say(offers_due, ":due  what is due of other lessons, first");
     say(
         true,
         ":quit  save and leave; the same command comes back here",
@@ -644,7 +648,7 @@ fn asks_for_help(line: &str) -> bool {
 
 /// Whether a line is the name of a command where no words are asked for.
 fn is_command_without_colon(line: &str, input: &Input) -> bool {
-    const NAMES: [&str; 5] = ["quit", "exit", "back", "skip", "hint"];
+    const NAMES: [&str; 6] = ["quit", "exit", "back", "skip", "hint", "due"];
     let wants_words = matches!(
         input,
         Input::Text { .. } | Input::Reply { .. } | Input::Code { .. }

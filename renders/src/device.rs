@@ -25,7 +25,8 @@ pub(crate) struct Device {
 }
 
 /// The device that was opened first and has not failed since: opening one, drivers and all, takes
-/// longer than a picture, and a process draws many.
+/// longer than a picture, and a process draws many. The machine has it, not a picture: so it is the
+/// one thing here that outlives a call.
 static OPENED: Mutex<Option<Arc<Device>>> = Mutex::new(None);
 
 /// A compute shader with the entry point `shade`: it reads an array of f32 (binding 0), a few for
@@ -165,7 +166,8 @@ impl Device {
                 compilation_options: Default::default(),
                 cache: None,
             })
-        })?;
+        })
+        .inspect_err(|_| self.give_up())?;
         Ok(Kernel { pipeline })
     }
 

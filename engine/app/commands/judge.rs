@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::io::{self, Read as _};
 use std::path::Path;
 
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use tutor::judge::{Judgement, Verdict};
 use tutor::lesson::Explain;
@@ -212,21 +213,33 @@ impl Second {
 
 /// Judges every line; one that cannot be read is named, and the others are judged all the same.
 fn batch(shelf: &Shelf, path: &Path, judge: Option<&SecondJudge>) -> Result<Done, Failure> {
+    /// Lines judged before any of them is printed.
+    const AT_ONCE: usize = 256;
     let (mut good, mut bad) = (0, 0);
-    for (index, line) in super::lines_of(path)?.iter().enumerate() {
-        if line.trim().is_empty() {
-            continue;
-        }
-        match judged_line(shelf, line, judge) {
-            Ok(line) => {
-                good += 1;
-                output::line(&line)?;
+    let lines = super::lines_of(path)?;
+    let lines: Vec<(usize, &String)> = (1..).zip(&lines).collect();
+    for some in lines.chunks(AT_ONCE) {
+        let one = |(number, line): &(usize, &String)| {
+            let judged = || judged_line(shelf, line, judge);
+            (!line.trim().is_empty()).then(|| (*number, judged()))
+        };
+        let judged: Vec<_> = match judge {
+            None => some.par_iter().filter_map(one).collect(),
+            // A user's program is asked one thing at a time.
+            Some(_) => some.iter().filter_map(one).collect(),
+        };
+        for (number, judged) in judged {
+            match judged {
+                Ok(line) => {
+                    good += 1;
+                    output::line(&line)?;
+                }
+                Err(Failure::Unusable(why)) => {
+                    bad += 1;
+                    output::complain(&format!("{}:{number}: {why}", path.display()));
+                }
+                Err(other) => return Err(other),
             }
-            Err(Failure::Unusable(why)) => {
-                bad += 1;
-                output::complain(&format!("{}:{}: {why}", path.display(), index + 1));
-            }
-            Err(other) => return Err(other),
         }
     }
     match bad {

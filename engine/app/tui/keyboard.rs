@@ -123,7 +123,8 @@ fn ascii(byte: u8) -> Event {
         b'\t' => key(KeyCode::Tab, KeyModifiers::NONE),
         0x7f => key(KeyCode::Backspace, KeyModifiers::NONE),
         0x01..=0x1a => control(byte - 1 + b'a'),
-        0x1b..0x20 => control(byte - 0x1c + b'4'),
+        0x1b => key(KeyCode::Esc, KeyModifiers::NONE),
+        0x1c..0x20 => control(byte - 0x1c + b'4'),
         letter => of_char(letter.into()),
     }
 }

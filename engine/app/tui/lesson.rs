@@ -17,6 +17,9 @@ use crate::sitting::{Request, Sitting};
 /// A pause in typing after which the draft is saved.
 const DRAFT_AFTER: Duration = Duration::from_millis(600);
 
+/// The draft of who types on without a pause is saved as often.
+const DRAFT_EVERY: Duration = Duration::from_secs(3);
+
 /// How fast the sign turns while something is waited for.
 const SPINNING: Duration = Duration::from_millis(120);
 
@@ -68,8 +71,8 @@ pub struct LessonScreen {
     shown: View,
     laid_out_for: u16,
     palette: Palette,
-    /// When the text was last changed, where that is not saved yet.
-    typed: Option<Instant>,
+    /// When the text was changed, where that is not saved yet.
+    typed: Option<Typed>,
     /// When waiting began.
     asked_at: Option<Instant>,
 }
@@ -113,17 +116,23 @@ impl LessonScreen {
 
     /// Lays the page out for a window of that size.
     pub fn fit(&mut self, width: u16, height: u16) {
+        let scrolled = self.last_scroll() > 0;
+        let at_end = self.scroll >= self.last_scroll();
         if self.laid_out_for != width {
+            // What is read stays at the top, however many lines come before it now.
+            let (block, line) = self.page.block_at(self.scroll);
             self.page = Page::new(&self.shown.blocks, width, self.palette);
             self.laid_out_for = width;
+            let first = self.page.start_of(block);
+            let last = self.page.start_of(block + 1).saturating_sub(1);
+            self.scroll = (first + line).min(last.max(first));
         }
         // A note below takes its lines from the page: what was read last stays in view.
         let lost = self.window.saturating_sub(height as usize);
-        let at_end = self.scroll >= self.last_scroll();
-        let noted = at_end && lost <= 3 && self.fitted == self.shown.key;
+        let stays_at_end = at_end && (scrolled || lost <= 3) && self.fitted == self.shown.key;
         self.window = height as usize;
         self.fitted.clone_from(&self.shown.key);
-        if noted {
+        if stays_at_end {
             self.scroll = self.last_scroll();
         }
         self.scroll = self.follow.unwrap_or(self.scroll).min(self.last_scroll());
@@ -195,9 +204,7 @@ impl LessonScreen {
         if self.sitting.is_saving() || self.sitting.is_running() {
             return Some(SAVING);
         }
-        let draft = self
-            .typed
-            .map(|when| DRAFT_AFTER.saturating_sub(when.elapsed()));
+        let draft = self.typed.map(|typed| typed.draft_in());
         let asking = self.sitting.is_asking().then_some(SPINNING);
         draft.into_iter().chain(asking).min()
     }
@@ -213,7 +220,7 @@ impl LessonScreen {
 
     /// Does what waits. True where the screen changed.
     pub fn tend(&mut self) -> bool {
-        if self.typed.is_some_and(|when| when.elapsed() >= DRAFT_AFTER) {
+        if self.typed.is_some_and(|typed| typed.draft_in().is_zero()) {
             self.save_draft();
         }
         let changed = self.sitting.collect();
@@ -221,6 +228,12 @@ impl LessonScreen {
             self.refresh();
         }
         changed || self.shown.waiting.is_some()
+    }
+
+    fn note_typing(&mut self) {
+        let now = Instant::now();
+        let first = self.typed.map_or(now, |typed| typed.first);
+        self.typed = Some(Typed { first, last: now });
     }
 
     /// What an action of the learner does.
@@ -243,7 +256,10 @@ impl LessonScreen {
                 return Flow::Play;
             }
             Action::Play => {}
-            Action::AskDue if self.offer.is_some() => return Flow::AskDue,
+            Action::AskDue if self.offer.is_some() => {
+                self.save_draft();
+                return Flow::AskDue;
+            }
             Action::AskDue => {}
             Action::Back => return self.send_if(self.shown.can.back, Msg::Back),
             Action::Skip => return self.skip(),
@@ -283,13 +299,13 @@ impl LessonScreen {
             }
             Action::Edit(edit) => {
                 if self.field.edit(edit) {
-                    self.typed = Some(Instant::now());
+                    self.note_typing();
                 }
             }
             Action::Paste(text) => {
                 if matches!(self.focus, Focus::Line | Focus::Editor) {
                     self.field.paste(&text);
-                    self.typed = Some(Instant::now());
+                    self.note_typing();
                 }
             }
             Action::Help | Action::Redraw | Action::Repaint | Action::Nothing => {}
@@ -372,7 +388,7 @@ impl LessonScreen {
         match edited {
             Ok(text) => {
                 self.field = Field::of_code(&text);
-                self.typed = Some(Instant::now());
+                self.note_typing();
                 self.save_draft();
                 self.refresh();
             }
@@ -488,13 +504,22 @@ impl LessonScreen {
         }
         self.save_draft();
         let _ = self.sitting.tell(Msg::Quit);
+        if self.may_go() {
+            Flow::Leave
+        } else {
+            Flow::Stay
+        }
+    }
+
+    /// Saves what is left. False where that fails: then the learner is asked first.
+    pub fn may_go(&mut self) -> bool {
         self.sitting.settle();
         self.refresh();
         if let tutor::view::Saving::Failed(why) = &self.shown.saving {
             self.leaving_unsaved = Some(why.clone());
-            return Flow::Stay;
+            return false;
         }
-        Flow::Leave
+        true
     }
 
     /// Takes over what the session shows now.
@@ -525,6 +550,21 @@ impl LessonScreen {
             }
             self.scroll = self.follow.unwrap_or(0).min(self.last_scroll());
         }
+    }
+}
+
+/// When a text was changed since it was last saved.
+#[derive(Clone, Copy)]
+struct Typed {
+    first: Instant,
+    last: Instant,
+}
+
+impl Typed {
+    /// How long its draft may wait.
+    fn draft_in(self) -> Duration {
+        let pause = DRAFT_AFTER.saturating_sub(self.last.elapsed());
+        pause.min(DRAFT_EVERY.saturating_sub(self.first.elapsed()))
     }
 }
 

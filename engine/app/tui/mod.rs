@@ -152,7 +152,8 @@ impl App<'_> {
                     let mut repaint = action == Action::Repaint;
                     redraw |= action != Action::Nothing;
                     match self.act(action)? {
-                        Flow::Stay => {}
+                        // What is due is opened already.
+                        Flow::Stay | Flow::AskDue => {}
                         Flow::Play => {
                             if self.play(&mut terminal).map_err(broken)? == Left::QuitAll {
                                 let _ = self.act(Action::QuitAll)?;
@@ -161,8 +162,6 @@ impl App<'_> {
                             repaint = true;
                         }
                         Flow::Leave | Flow::Finish => return Ok(()),
-                        // Done already.
-                        Flow::AskDue => repaint = true,
                         Flow::OpenEditor => {
                             self.open_editor(&guard).map_err(broken)?;
                             repaint = true;
@@ -261,6 +260,7 @@ impl App<'_> {
                 }
             },
             Screen::Lesson(lesson) => match lesson.act(action) {
+                Flow::AskDue | Flow::Finish if !lesson.may_go() => Ok(Flow::Stay),
                 Flow::AskDue => {
                     let then = Some((Arc::clone(lesson.sitting.lesson()), self.wish));
                     if let Some(due) = lesson.offer.take() {
@@ -290,9 +290,6 @@ impl App<'_> {
 
     /// Opens what comes next. False where nothing does.
     fn go_on(&mut self) -> Result<bool, Failure> {
-        if let Screen::Lesson(lesson) = &mut self.screen {
-            lesson.sitting.settle();
-        }
         let next = match &mut self.lineup {
             Some(lineup) => lineup.next(self.store)?,
             None => None,
@@ -315,7 +312,6 @@ impl App<'_> {
         let Screen::Lesson(lesson) = &mut self.screen else {
             return;
         };
-        lesson.sitting.settle();
         let said = match (lesson.sitting.asks_due(), flow) {
             (false, _) => "Saved. You come back to this very screen.",
             (true, Flow::Finish) => "Saved.",

@@ -82,12 +82,13 @@ impl Pictures {
 /// Rows that three square panels and the gaps between them fill in `width` columns: a row that
 /// they filled in part would show a black bar.
 pub fn rows_for(width: u16) -> u16 {
-    (width * 8 / 49).max(3)
+    // What was below 65536 still is.
+    (u32::from(width) * 8 / 49).max(3) as u16
 }
 
 /// Columns that they take in so many rows, of `width` at most.
 pub fn columns_in(rows: u16, width: u16) -> u16 {
-    ((rows * 49 + 4) / 8).min(width)
+    ((u32::from(rows) * 49 + 4) / 8).min(u32::from(width)) as u16
 }
 
 /// Columns and rows of a map where there are so many columns.

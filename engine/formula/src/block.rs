@@ -145,7 +145,9 @@ impl<R: Machine> Ready<R> {
 
     /// Computes what is the same at all points, unless it is what it was.
     fn fix(&mut self, columns: &Columns<'_, R>) {
-        let known = self.constants.len() == columns.inputs
+        // A program without inputs has not been computed before the first time either.
+        let known = columns.inputs > 0
+            && self.constants.len() == columns.inputs
             && self
                 .constants
                 .iter()

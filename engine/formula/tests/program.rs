@@ -253,3 +253,13 @@ fn the_canonical_form_does_not_know_spelling() {
         canonical("n_dot_v - n_dot_l")
     );
 }
+
+#[test]
+fn a_formula_without_inputs_is_the_same_at_every_point() {
+    let expr = parse("1 + 2").expect("a formula");
+    let program = library().compile(&expr, &[]).expect("a program");
+    let (mut out, mut narrow) = (vec![0.0; 100], vec![0.0; 100]);
+    program.eval_block_f64(&[], &mut out, &mut Scratch::new());
+    program.eval_block_f32(&[], &mut narrow, &mut Scratch::new());
+    assert_eq!((out, narrow), (vec![3.0; 100], vec![3.0; 100]));
+}

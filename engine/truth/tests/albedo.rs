@@ -122,7 +122,7 @@ fn the_core_agrees() {
                 ((term.f64)(&args) - truth).abs() / truth,
             ];
             for (worst, error) in worst.iter_mut().zip(errors) {
-                if error > worst.0 {
+                if !(error <= worst.0 || worst.0.is_nan()) {
                     *worst = (error, args);
                 }
             }

@@ -293,8 +293,7 @@ fn spec(picture: &Picture, rows: &[&Row], machine: &str) -> PlotSpec {
     }
 }
 
-/// The unit of time in which the shortest is no fraction of a thousandth, and what a nanosecond is
-/// in it.
+/// The unit of time in which the shortest is at least a tenth, and what a nanosecond is in it.
 fn unit_of_time(rows: &[&Row]) -> (&'static str, f64) {
     let least = rows.iter().map(|row| row.ns).fold(f64::INFINITY, f64::min);
     match least {

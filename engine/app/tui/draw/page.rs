@@ -134,6 +134,13 @@ impl Page {
         self.starts.get(index).copied().unwrap_or(self.height)
     }
 
+    /// The block that a line belongs to, and which of its lines that is.
+    pub fn block_at(&self, line: usize) -> (usize, usize) {
+        let next = self.starts.partition_point(|start| *start <= line);
+        let index = next.saturating_sub(1);
+        (index, line.saturating_sub(self.start_of(index)))
+    }
+
     /// The pictures of this page and the sizes wanted.
     pub fn pictures(&self) -> impl Iterator<Item = (&Subject, u16, u16)> {
         self.placed.iter().filter_map(|placed| match &placed.what {

@@ -27,7 +27,6 @@ impl Areas {
     pub fn new(whole: Rect, columns: u16) -> Self {
         let room = whole.height.saturating_sub(AROUND).max(2);
         let width = whole.width.saturating_sub(2).min(columns);
-        // As wide as the height allows: three squares side by side.
         // As high as the width allows, and as wide as the height does: three squares in a row.
         let height = rows_for(width).min(room);
         Self {

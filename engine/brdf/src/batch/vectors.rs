@@ -30,7 +30,7 @@ pub struct Vectors<'a> {
 /// - *Arguments*: see [`Vectors`]; `out` as long as they are, or shorter.
 /// - *Value*: 1/sr.
 /// - *Outside*: 0 where the light or the view is not above the horizon; see [`crate::batch`].
-/// - *Error*: 21.1 ulp with FMA, 23.7 without (20.9 of a call). An f0 below 0.01, where the reflectance
+/// - *Error*: 21.2 ulp with FMA, 23.7 without (20.9 of a call). An f0 below 0.01, where the reflectance
 ///   is little but the fifth power of 1 − V·H, is computed more carefully, and takes up to 1.8
 ///   times as long.
 pub fn specular_vectors(isa: Isa, input: &Vectors, out: &mut [f32]) {

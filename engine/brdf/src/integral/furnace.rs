@@ -14,7 +14,7 @@ use std::f64::consts::PI;
 ///
 /// - *Source*: Heitz 2014, the weak white furnace test.
 /// - *Arguments*: `n_dot_v` N·V in [0, 1]; `alpha` α = roughness² in [0, 1].
-/// - *Value*: 1 for every view, within 1e-7: in any direction the visible facets cover exactly the
+/// - *Value*: 1 for every view: in any direction the visible facets cover exactly the
 ///   surface. This is what fixes G₁ once D is chosen, and what a wrong pairing of the two breaks.
 /// - *Outside*: below N·V = 0.001 that view is taken.
 /// - *Error*: for N·V and α from 0.1 up 5.1e-6 in f32, 1.9e-14 in f64.

@@ -1,20 +1,10 @@
 //! Points to look at: near the ends of every range, and moved a little.
 
 use super::Precision;
+pub(super) use crate::bench::Numbers;
 use brdf::Param;
 
-/// Numbers that follow from a seed (SplitMix64).
-pub(super) struct Numbers(pub(super) u64);
-
 impl Numbers {
-    pub(super) fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
     /// One of the first `count` whole numbers.
     pub(super) fn below(&mut self, count: usize) -> usize {
         (self.unit() * count as f64) as usize

@@ -119,7 +119,7 @@ impl Subject {
         }
     }
 
-    /// What it should compute, to at least 36 digits.
+    /// What it should compute, to at least 36 digits; an albedo to 11.
     pub(super) fn truth(&self, precision: Precision, args: &[f64]) -> Option<Big> {
         match self.against {
             Against::Form | Against::Jitter => value(self.name, args),

@@ -282,10 +282,25 @@ fn due(records: &[&Record], today: &str) -> Vec<DueItem> {
 /// What a log says about each item, a day and round at a time: right when nothing went wrong.
 fn record_looks(record: &Record) -> Vec<(&str, Look)> {
     let mut looks: Vec<((&str, u32), Look)> = Vec::new();
+    // What was said last of each item: the try, and how many replies there were.
+    let mut said: BTreeMap<&str, (u32, u32)> = BTreeMap::new();
     for entry in &record.entries {
         let Some(day) = day_number(&entry.at) else {
             continue;
         };
+        match &entry.event {
+            Event::Explained { item, attempt, .. } => {
+                said.insert(item, (*attempt, 0));
+            }
+            Event::Replied { item, attempt, .. } => {
+                let replies = said.get(item.as_str()).map_or(0, |(_, replies)| *replies);
+                said.insert(item, (*attempt, replies + 1));
+            }
+            Event::SelfMarked { item, .. } => {
+                said.remove(item.as_str());
+            }
+            _ => {}
+        }
         let (item, round, right) = match &entry.event {
             Event::Attempt { result, .. } if result == "invalid" => continue,
             Event::Attempt {
@@ -309,6 +324,20 @@ fn record_looks(record: &Record) -> Vec<(&str, Look)> {
                 (item, 0, verdict == "pass")
             }
             Event::SelfMarked { item, verdict, .. } => (item, 0, verdict == "pass"),
+            // What it settles counts where nothing was said since.
+            Event::SecondOpinion {
+                item,
+                attempt,
+                reply,
+                settled,
+                verdict,
+                ..
+            } if verdict != "unsure"
+                && !settled.is_empty()
+                && said.get(item.as_str()) == Some(&(*attempt, *reply)) =>
+            {
+                (item, 0, verdict == "pass")
+            }
             _ => continue,
         };
         let key = (item.as_str(), round);

@@ -25,13 +25,16 @@ pub(super) fn changed(
         Turn::Attempt { text, .. } => Some(text.as_str()),
         Turn::Hint { .. } | Turn::GoneOn { .. } => None,
     });
-    let before = before.last().unwrap_or(source);
-    match differences(before, text) {
+    let before = before.last();
+    match differences(before.unwrap_or(source), text) {
         None => vec![
             paragraph("You ran this text:"),
             Block::CodeBlock(text.trim_end().to_owned()),
         ],
-        Some(lines) if lines.is_empty() => vec![paragraph("You ran it as it was.")],
+        Some(lines) if lines.is_empty() => vec![paragraph(match before {
+            Some(_) => "You changed nothing since you ran it last.",
+            None => "You ran it as it was.",
+        })],
         Some(lines) => vec![
             paragraph("You changed:"),
             Block::CodeBlock(lines.join("\n")),
