@@ -4,6 +4,7 @@ use super::explain::GOOD;
 use super::*;
 use crate::record::Record;
 use progress::{DueItem, LessonState, ask_first, summary, unfinished, unfinished_due};
+use std::collections::BTreeMap;
 
 const ITEMS: [&str; 4] = ["small/explain", "small/area", "gone", "small/worked"];
 
@@ -120,6 +121,40 @@ fn a_lesson_stands_where_it_stood_but_less_is_due() {
     assert_eq!(unfinished_due("small", &records, &still), Some(1));
     assert_eq!(unfinished_due("small", &records, &[]), None);
     assert_eq!(unfinished_due("other", &records, &still), None);
+}
+
+#[test]
+fn a_doubt_that_a_second_opinion_settled_was_looked_at() {
+    let settled = |attempt, settled: &[&str]| Event::SecondOpinion {
+        item: "small/explain".into(),
+        attempt,
+        reply: 0,
+        by: "test".into(),
+        result: "settles".into(),
+        problem: None,
+        own_verdict: None,
+        says: BTreeMap::new(),
+        why: Vec::new(),
+        disputed: Vec::new(),
+        settled: settled.iter().map(|id| (*id).to_owned()).collect(),
+        verdict: "pass".into(),
+        met: Vec::new(),
+        missed: Vec::new(),
+        misconceptions: Vec::new(),
+        slips: Vec::new(),
+        unsure: Vec::new(),
+    };
+    for (opinion, due) in [
+        (settled(1, &["area"]), 1),
+        // About another try, or of nothing that was open.
+        (settled(2, &["area"]), 0),
+        (settled(1, &[]), 0),
+    ] {
+        let doubted = ("2026-11-01", explained("unsure"));
+        let log = record(&[doubted, ("2026-11-01", opinion.clone())]);
+        let found = summary("small", &[log], "2026-11-10").due.len();
+        assert_eq!(found, due, "{opinion:?}");
+    }
 }
 
 #[track_caller]
