@@ -4,10 +4,12 @@
 //! explanation ends with a line of one `.`. What is printed holds no time and no path, and
 //! nothing is printed twice.
 
-use std::io::{self, BufRead as _, IsTerminal as _};
+mod incoming;
+mod words;
+
+use std::io::{self, IsTerminal as _};
 use std::sync::Arc;
-use std::sync::mpsc::{self, Receiver};
-use std::thread;
+use std::sync::mpsc::Receiver;
 
 use tutor::Lesson;
 use tutor::prose::{Block, TableView};
@@ -25,16 +27,13 @@ use crate::sitting::{Request, Sitting, Wish};
 use crate::store::Store;
 use crate::text;
 
+use incoming::{Incoming, incoming};
+use words::{
+    asks_for_help, checklist, headline, help, is_command_without_colon, numbered, with_line,
+};
+
 /// Lines are wrapped here.
 const WIDTH: usize = 80;
-
-/// What comes in.
-enum Incoming {
-    Line(String),
-    End,
-    /// A signal asks to end.
-    Signal(i32),
-}
 
 /// Runs the lesson until its end, or the input's; `due` is offered first.
 pub fn run(
@@ -198,11 +197,11 @@ impl Plain<'_> {
             ":hint" | ":h" => Msg::Hint,
             ":due" => return self.ask_due(),
             ":help" | ":?" => {
-                help(view, self.offer.is_some())?;
+                print(&help(view, self.offer.is_some()))?;
                 return Ok(Then::Stay);
             }
             _ if self.editor.is_none() && asks_for_help(command) => {
-                help(view, self.offer.is_some())?;
+                print(&help(view, self.offer.is_some()))?;
                 return Ok(Then::Stay);
             }
             _ if is_command_without_colon(command, &view.input) => {
@@ -582,120 +581,6 @@ impl Plain<'_> {
     }
 }
 
-/// Where we are, in one line.
-fn headline(view: &View) -> String {
-    let (at, of) = view.place;
-    let place = if of > 1 {
-        format!(" {at} of {of}")
-    } else {
-        String::new()
-    };
-    let stage = view.stage.title();
-    if view.heading.is_empty() || view.heading == stage {
-        format!("## {stage}{place}")
-    } else {
-        format!("## {stage}{place}: {}", view.heading)
-    }
-}
-
-fn help(view: &View, offers_due: bool) -> Result<(), Failure> {
-    let mut lines = Vec::new();
-    let mut say = |works: bool, line: &str| {
-        if works {
-            lines.push(line.to_owned());
-        }
-    };
-    say(view.can.next, "An empty line goes on.");
-    say(
-        view.can.hint.is_some(),
-        match view.can.hint {
-            Some(1) => ":hint  a hint; the third one is the answer",
-            Some(2) => ":hint  a second hint; the third one is the answer",
-            _ => ":hint  the answer",
-        },
-    );
-    say(view.can.back, ":back  the screen before; nothing is lost");
-    say(
-        view.can.skip,
-        &match view.skip_label.as_str() {
-            "" => ":skip  leave this out".to_owned(),
-            label => format!(":skip  {label}"),
-        },
-    );
-    say(offers_due, ":due  what is due of other lessons, first");
-    say(
-        true,
-        ":quit  save and leave; the same command comes back here",
-    );
-    say(
-        matches!(view.input, Input::Code { .. }),
-        ":7 TEXT changes line 7 of the shader; :show prints it, :edit opens your editor",
-    );
-    say(
-        matches!(view.input, Input::Number { .. }),
-        "Numbers: 0.56, 5.6e-1, 0,56 or arithmetic such as 0.4^4, 1/pi.",
-    );
-    print(&lines)
-}
-
-/// Whether a line can be meant for nobody but the tutor.
-fn asks_for_help(line: &str) -> bool {
-    matches!(
-        line.to_lowercase().as_str(),
-        "?" | "??" | "help" | "help!" | "help?"
-    )
-}
-
-/// Whether a line is the name of a command where no words are asked for.
-fn is_command_without_colon(line: &str, input: &Input) -> bool {
-    const NAMES: [&str; 6] = ["quit", "exit", "back", "skip", "hint", "due"];
-    let wants_words = matches!(
-        input,
-        Input::Text { .. } | Input::Reply { .. } | Input::Code { .. }
-    );
-    !wants_words && NAMES.contains(&line)
-}
-
-/// A text with the numbers of its lines.
-fn numbered(text: &str) -> Vec<String> {
-    let lines = text.trim_end().lines().enumerate();
-    lines
-        .map(|(index, line)| {
-            format!("    {:>2} | {line}", index + 1)
-                .trim_end()
-                .to_owned()
-        })
-        .collect()
-}
-
-/// A text with one line changed, its indentation kept where none is typed, and that line as it
-/// is now.
-fn with_line(text: &str, number: &str, new: &str) -> Option<(String, String)> {
-    let index = number.parse::<usize>().ok()?.checked_sub(1)?;
-    let mut lines: Vec<String> = text.trim_end().lines().map(str::to_owned).collect();
-    let old = lines.get_mut(index)?;
-    let indent: String = old.chars().take_while(|letter| *letter == ' ').collect();
-    *old = format!("{indent}{new}").trim_end().to_owned();
-    let shown = format!("    {:>2} | {old}", index + 1);
-    Some((lines.join("\n"), shown))
-}
-
-/// "y", "n", "2 y".
-fn checklist(line: &str, open: Option<usize>) -> Option<Msg> {
-    let mut words = line.split_whitespace();
-    let first = words.next()?;
-    let (point, word) = match first.parse::<usize>() {
-        Ok(number) => (number.checked_sub(1)?, words.next()?),
-        Err(_) => (open?, first),
-    };
-    let said = match word {
-        "y" | "yes" | "j" => true,
-        "n" | "no" => false,
-        _ => return None,
-    };
-    Some(Msg::Mark { point, said })
-}
-
 fn print(lines: &[String]) -> Result<(), Failure> {
     lines.iter().try_for_each(|line| output::line(line))
 }
@@ -719,50 +604,3 @@ impl text::Describe for Profiles<'_> {
         (lesson == self.lesson.id.text).then(|| map_table(self.lesson, id))?
     }
 }
-
-/// Lines and signals, in the order in which they come.
-fn incoming() -> Receiver<Incoming> {
-    let (send, incoming) = mpsc::channel();
-    let signals = send.clone();
-    thread::spawn(move || {
-        let mut bytes = Vec::new();
-        let mut stdin = io::stdin().lock();
-        loop {
-            bytes.clear();
-            match stdin.read_until(b'\n', &mut bytes) {
-                Ok(1..) => {
-                    let text = String::from_utf8_lossy(&bytes);
-                    let line = text
-                        .trim_end_matches(['\n', '\r'])
-                        .trim_start_matches('\u{feff}');
-                    if send.send(Incoming::Line(line.to_owned())).is_err() {
-                        return;
-                    }
-                }
-                // What cannot be read has ended.
-                Ok(0) | Err(_) => {
-                    let _ = send.send(Incoming::End);
-                    return;
-                }
-            }
-        }
-    });
-    watch_signals(signals);
-    incoming
-}
-
-#[cfg(unix)]
-fn watch_signals(send: mpsc::Sender<Incoming>) {
-    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
-    let Ok(mut signals) = signal_hook::iterator::Signals::new([SIGHUP, SIGINT, SIGTERM]) else {
-        return;
-    };
-    thread::spawn(move || {
-        for signal in signals.forever() {
-            let _ = send.send(Incoming::Signal(signal));
-        }
-    });
-}
-
-#[cfg(not(unix))]
-fn watch_signals(_send: mpsc::Sender<Incoming>) {}
